@@ -1,0 +1,32 @@
+# faceprobe_room(NAME SOURCES ... [ROOMS ...] [LIBRARIES ...])
+# One room of the house: a library target faceprobe_NAME. ROOMS are the rooms below that its headers may include;
+# LIBRARIES stay private to its sources.
+function(faceprobe_room name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;ROOMS;LIBRARIES" ${ARGN})
+  add_library(faceprobe_${name} STATIC ${ARG_SOURCES})
+  add_library(faceprobe::${name} ALIAS faceprobe_${name})
+  set_target_properties(faceprobe_${name} PROPERTIES EXPORT_NAME ${name})
+  target_include_directories(faceprobe_${name}
+    PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
+    PRIVATE ${PROJECT_SOURCE_DIR}/src)
+  target_compile_features(faceprobe_${name} PUBLIC cxx_std_20)
+  target_link_libraries(faceprobe_${name} PUBLIC Eigen3::Eigen PRIVATE $<BUILD_INTERFACE:faceprobe_flags> ${ARG_LIBRARIES})
+  foreach(room ${ARG_ROOMS})
+    target_link_libraries(faceprobe_${name} PUBLIC faceprobe_${room})
+  endforeach()
+  target_precompile_headers(faceprobe_${name} PRIVATE <algorithm> <array> <cmath> <string> <vector> <Eigen/Dense>)
+  set_property(GLOBAL APPEND PROPERTY FACEPROBE_ROOMS faceprobe_${name})
+endfunction()
+
+# faceprobe_test(NAME SOURCES ... ROOMS ...): one GoogleTest program; each of its cases is a ctest.
+function(faceprobe_test name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;ROOMS;LIBRARIES" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests ${PROJECT_SOURCE_DIR}/src)
+  target_link_libraries(${name} PRIVATE faceprobe_flags GTest::gtest GTest::gtest_main ${ARG_LIBRARIES})
+  foreach(room ${ARG_ROOMS})
+    target_link_libraries(${name} PRIVATE faceprobe_${room})
+  endforeach()
+  target_precompile_headers(${name} PRIVATE <gtest/gtest.h> <Eigen/Dense> <cmath> <string> <vector>)
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60)
+endfunction()

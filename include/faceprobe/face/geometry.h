@@ -1,0 +1,58 @@
+#pragma once
+// The face mesh as pictures: per pixel of a crop, what the light estimate needs to know about the surface seen there.
+//
+//   GeometryOptions options;  options.long_side_px = 256;
+//   FaceGeometry g = rasterize(face, camera, mesh, photo.linear.width(), photo.linear.height(), options);
+//   Eigen::Vector3f n(g.normal_cam.pixel(x, y));
+//
+// The mesh's own normals are good to about 13 degrees (median, against a head scan; see docs/results.md for the command): the nose and the
+// mouth are the worst. Depth and normals are those of the posed mesh; eyes and mouth are closed over.
+
+#include "faceprobe/core/image.h"
+#include "faceprobe/face/canonical_mesh.h"
+#include "faceprobe/face/face.h"
+#include "faceprobe/face/region.h"
+
+#include <Eigen/Core>
+#include <string>
+
+namespace faceprobe::face {
+
+// An axis-aligned crop of the photo, resampled by one scale.
+struct Crop {
+  double x_px = 0, y_px = 0;  // top left corner in the photo; may be negative
+  double scale = 1;           // crop pixels per photo pixel
+  int width = 0, height = 0;  // of the crop
+
+  Eigen::Vector2d photo_from_crop(double x, double y) const { return {x_px + x / scale, y_px + y / scale}; }
+  Eigen::Vector2d crop_from_photo(double x, double y) const { return {(x - x_px) * scale, (y - y_px) * scale}; }
+};
+
+struct GeometryOptions {
+  int long_side_px = 256;   // of the crop; never more than the photo has when allow_enlarging is false
+  double margin = 0.15;     // of the landmarks' box, on each side
+  bool allow_enlarging = false;
+
+  std::string validate() const;
+};
+
+struct FaceGeometry {
+  Crop crop;
+  Image normal_cam;      // crop x 3, unit, camera frame; 0 where not face
+  Image position_cam_m;  // crop x 3, metres, camera frame (z < 0); 0 where not face
+  Image view_cam;        // crop x 3, unit, from the surface to the camera; defined everywhere
+  ByteImage region;      // crop x 1, Region
+};
+
+// The crop that a face gets.
+Crop face_crop(const Face& face, int photo_width, int photo_height, const GeometryOptions& options);
+
+// Normals are averaged at the vertices (weighted by angle) and interpolated perspective-correctly.
+FaceGeometry rasterize(const Face& face, const Camera& camera, const CanonicalMesh& mesh, const Crop& crop);
+
+// The photo resampled into the crop: area average when smaller, bilinear when larger; black outside the photo.
+Image crop_picture(const Image& linear, const Crop& crop);
+// Bit flags resampled into the crop: a bit is set where any covered pixel has it; 0xFF outside the photo.
+ByteImage crop_flags(const ByteImage& flags, const Crop& crop);
+
+}  // namespace faceprobe::face

@@ -1,0 +1,38 @@
+#pragma once
+// Pictures and environment maps on disk. The extension picks the format: .exr (half float, ZIP), .hdr (Radiance RGBE), .png
+// (8-bit sRGB). Writing is atomic: the target is either the old file or the complete new one, also after a kill or a full
+// disk; every failure is Error(kOutput) that names the file and the system's reason.
+
+#include "faceprobe/core/env_map.h"
+#include "faceprobe/core/image.h"
+#include "faceprobe/io/limits.h"
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+namespace faceprobe::io {
+
+// Text attributes for files that can carry them (EXR, PNG): provenance such as {"faceprobe:version", "0.1.0"}.
+using Attributes = std::map<std::string, std::string>;
+
+// `image` is linear, 1, 3 or 4 channels. .exr and .hdr keep it as it is (.hdr needs 3 channels and clamps negatives to 0);
+// .png encodes it to sRGB, clipped at 1. half_float = false writes 32-bit EXR.
+void write_picture(const std::filesystem::path& path, const Image& image, const Attributes& attributes = {},
+                   bool half_float = true);
+// Already encoded bytes, 1, 3 or 4 channels, to .png.
+void write_picture(const std::filesystem::path& path, const ByteImage& image, const Attributes& attributes = {});
+
+// Lat-long map to .exr (with `envmap = latlong` and Rec.709 chromaticities) or .hdr, columns rolled to `orientation`;
+// .png writes a tone-mapped preview whose exposure puts the 90 % quantile at 0.6. Other extensions: Error(kUsage).
+void write_env_map(const std::filesystem::path& path, const EnvMap& map, Orientation orientation = Orientation::kOpenExr,
+                   const Attributes& attributes = {});
+
+// Linear picture of an .exr or .hdr: 1 or 3 channels as in the file (alpha dropped); non-finite and negative values become 0.
+// Throws Error(kInput) when unreadable or over a limit.
+Image read_linear_picture(const std::filesystem::path& path, const Limits& limits = {});
+// As above, and 2N x N.
+EnvMap read_env_map(const std::filesystem::path& path, Orientation orientation = Orientation::kOpenExr,
+                    const Limits& limits = {});
+
+}  // namespace faceprobe::io

@@ -1,0 +1,50 @@
+#include "faceprobe/core/sphere_grid.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace faceprobe {
+
+Eigen::MatrixX3f grid_from_env_map(const EnvMap& map, const SphereGrid& grid) {
+  // Every texel gives its energy to the cell that holds it; coarse texels are split first, so that a cell's
+  // share is right to a few percent however the texels fall.
+  const double texel = std::sqrt(texel_solid_angle(map.height() / 2, map.width(), map.height()));
+  const int split = std::max(1, static_cast<int>(std::ceil(8.0 * texel / std::sqrt(grid.cell_solid_angle()))));
+  Eigen::MatrixX3d energy = Eigen::MatrixX3d::Zero(grid.cell_count(), 3);
+  for (int y = 0; y < map.height() * split; ++y) {
+    const double solid_angle = texel_solid_angle(y, map.width() * split, map.height() * split);
+    for (int x = 0; x < map.width() * split; ++x) {
+      const Eigen::Vector3f d = direction_from_uv({(static_cast<float>(x) + 0.5F) / static_cast<float>(map.width() * split),
+                                                   (static_cast<float>(y) + 0.5F) / static_cast<float>(map.height() * split)});
+      const int cell = grid.cell_of(d);
+      const Eigen::Map<const Eigen::RowVector3f> radiance(map.radiance().pixel(x / split, y / split));
+      energy.row(cell) += solid_angle * radiance.cast<double>();
+    }
+  }
+  // Dividing by the nominal area, not by the area that happened to fall in, is what keeps the integral.
+  return (energy / grid.cell_solid_angle()).cast<float>();
+}
+
+EnvMap env_map_from_grid(const Eigen::MatrixX3f& cells, const SphereGrid& grid, int width, int height) {
+  EnvMap map(width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const SphereGrid::Interpolation at = grid.interpolate(map.direction(x, y));
+      Eigen::RowVector3f value = Eigen::RowVector3f::Zero();
+      for (std::size_t i = 0; i < 4; ++i) value += at.weight[i] * cells.row(at.cell[i]);
+      Eigen::Map<Eigen::RowVector3f>(map.radiance().pixel(x, y)) = value;
+    }
+  }
+  const Eigen::Vector3d wanted = cells.cast<double>().colwise().sum().transpose() * grid.cell_solid_angle();
+  const Eigen::Vector3d found = map.integral();
+  Eigen::Array3f gain = Eigen::Array3f::Ones();
+  for (int c = 0; c < 3; ++c) {
+    if (found[c] > 0.0) gain[c] = static_cast<float>(wanted[c] / found[c]);
+  }
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) Eigen::Map<Eigen::Array3f>(map.radiance().pixel(x, y)) *= gain;
+  }
+  return map;
+}
+
+}  // namespace faceprobe
