@@ -1,13 +1,14 @@
 find_package(Threads REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(OpenCV 4.5 REQUIRED COMPONENTS core imgproc calib3d)
-find_package(OpenImageIO 2.4 REQUIRED)
 find_package(nlohmann_json 3.11 REQUIRED)
 find_package(nanoflann 1.4 REQUIRED)
 find_package(CLI11 2.1 REQUIRED)
 find_package(spdlog 1.10 REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(LCMS2 REQUIRED IMPORTED_TARGET lcms2)
+# By pkg-config: Debian's CMake files for OpenImageIO also demand its command-line tools, which nothing here uses.
+pkg_check_modules(OPENIMAGEIO REQUIRED IMPORTED_TARGET OpenImageIO>=2.4)
 
 # The packages that scripts/setup.sh unpacks: TensorFlow Lite's C library and the face models.
 set(FACEPROBE_DEPS_DIR ${PROJECT_SOURCE_DIR}/.deps CACHE PATH "Where scripts/setup.sh unpacked its packages")

@@ -1,11 +1,13 @@
 #pragma once
-// What every separator reads: the picture as it would look under white light, pixel by pixel and without a copy, and where to
-// look. Each separator answers with one plane: how much white light each pixel mirrors (before the cap by the picture).
+// What every separator reads: the picture as it would look under white light, pixel by pixel and without a copy, and
+// where to look. Each separator answers with one plane: how much white light each pixel mirrors (before the cap by the
+// picture).
 
 #include "faceprobe/core/image.h"
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 
 namespace faceprobe::highlight {
 
@@ -45,6 +47,15 @@ struct Scene {
 // Below this share of the largest channel a colour is grey: rounding of the white balance alone makes as much.
 inline constexpr float kGreyShare = 1e-4F;
 inline bool is_grey(const Extremes& e) { return e.high - e.low <= kGreyShare * e.high; }
+
+// Three times the largest chromaticity, less one: 0 for grey, 2 for a pure primary. White light lowers it, and in a
+// known way: total * saturation stays.
+inline float saturation(const Extremes& e) { return 3 * (e.high / e.total) - 1; }
+
+// The white light that lowered the saturation of a colour from `diffuse` to what it is.
+inline float white_part(const Extremes& e, float diffuse) {
+  return std::max(0.0F, e.total * (1 - saturation(e) / diffuse) / 3);
+}
 
 // H x W x 1, >= 0, 0 outside the mask.
 Image tan_highlight(const Scene& scene);

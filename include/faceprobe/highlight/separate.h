@@ -2,8 +2,14 @@
 // Splits a face into what its surface mirrors (highlight) and what comes out of the skin (diffuse), in linear light:
 // picture = highlight + diffuse, both non-negative in every channel.
 //
-// The three separators here are classical: they need colour (a grey photo gives an empty highlight layer) and assume the
-// light is white, which is why the picture is divided by `light_colour` first and multiplied back after.
+// The three separators here are classical: they need colour (a grey photo gives an empty highlight layer) and assume
+// the light is white, which is why the picture is divided by `light_colour` first and multiplied back after. What a
+// classical separator takes for highlight is the white part of a surface: a white or grey object among coloured ones
+// goes with it.
+//
+// Time grows with the pixels: a 2000 x 2000 crop takes shen 0.1 s and yang 0.4 s on two threads. tan sweeps the picture
+// on one thread, some 3 s for such a crop and never more than 2550 sweeps; it leaves alone pixels below 20/255 in all
+// channels.
 //
 //   Layers layers = separate(crop, mask, {.separator = Separator::kShen});
 
@@ -37,8 +43,8 @@ struct Layers {
   Image diffuse;    // H x W x 3, picture - highlight
 };
 
-// `linear`: H x W x 3. `mask`: H x W x 1, non-zero where to separate; empty = everywhere. Statistics are taken inside the mask
-// only. Throws std::invalid_argument when the sizes differ.
+// `linear`: H x W x 3. `mask`: H x W x 1, non-zero where to separate; empty = everywhere. Statistics are taken inside
+// the mask only. Throws std::invalid_argument when the sizes differ.
 Layers separate(const Image& linear, const ByteImage& mask, const SeparateOptions& options);
 
 }  // namespace faceprobe::highlight

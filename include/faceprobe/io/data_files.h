@@ -2,6 +2,8 @@
 // Where the models and meshes that the program needs lie: $FACEPROBE_DATA_DIR if set, else share/faceprobe beside the
 // executable's bin folder, else the folder the build was configured with.
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>

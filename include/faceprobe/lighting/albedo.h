@@ -1,0 +1,29 @@
+#pragma once
+// A first albedo: one skin colour per region, smooth by construction, from the diffuse layer and two priors. It exists so that
+// shading can be had before a network tells albedo from shading pixel by pixel; freckles, stubble and make-up stay in the shading.
+//
+// The product light colour x skin colour is all a photo shows. In log chromaticity both factors get a normal prior - photos are
+// roughly white-balanced, skins lie on a short locus - and the posterior mean splits the product (ESTIMATES: see albedo.cpp).
+
+#include "faceprobe/core/image.h"
+#include "faceprobe/lighting/skin.h"
+
+#include <Eigen/Core>
+#include <array>
+
+namespace faceprobe::lighting {
+
+struct AlbedoModel {
+  std::array<Eigen::Vector3f, kSkinRegionCount> region_albedo;  // linear, luminance about kSkinLuminance
+  Eigen::Vector3f light_colour;                                 // mean light, linear, green = 1
+};
+
+inline constexpr float kSkinLuminance = 0.35F;  // assumed mean diffuse albedo; a photo does not tell its exposure
+
+// `diffuse`: H x W x 3 linear. `skin_region`: H x W x 1, 1 + SkinRegion where skin, 0 elsewhere. `clipped`: H x W x 1, non-zero
+// pixels are left out. A face without any usable skin pixel gets the prior's mean.
+AlbedoModel fit_albedo(const Image& diffuse, const ByteImage& skin_region, const ByteImage& clipped);
+// H x W x 3: the region's albedo at each skin pixel, blurred across borders; the overall skin mean elsewhere.
+Image albedo_picture(const AlbedoModel& model, const ByteImage& skin_region);
+
+}  // namespace faceprobe::lighting

@@ -1,0 +1,64 @@
+#pragma once
+// From observations to the light: the two solvers.
+//
+// `transport` (default) inverts the pixels' own transport matrix: microfacet rows for the highlights and cosine rows for the
+// shading, weighed against each other, clipped pixels as lower bounds. `paper` is the scheme of Yi et al. 2018 as its text has
+// it (sections 4.1 and 4.2): recolour the highlights, trace them to the sphere by inverse warping, deconvolve on the sphere with
+// the Phong kernel of each face region. It is kept so that the difference can be measured.
+//
+//   lighting::SolveOptions options;
+//   lighting::Light light = lighting::solve(observations, options);
+//   EnvMap map = env_map_from_grid(light.radiance, SphereGrid(options.nside), 256, 128);
+//
+// What to expect: skin at m = .3 is a probe of spherical-harmonic order 5. Sharper detail comes from positivity alone, and what
+// lies behind the head comes from the prior; `confidence` says which is which.
+
+#include "faceprobe/core/sphere_grid.h"
+#include "faceprobe/lighting/observations.h"
+
+#include <Eigen/Core>
+#include <string>
+#include <string_view>
+
+namespace faceprobe::lighting {
+
+enum class Solver { kTransport, kPaper };
+std::string_view solver_name(Solver solver);  // "transport", "paper"
+// Throws Error(kUsage) listing the names there are.
+Solver solver_from_name(std::string_view name);
+
+struct SolveOptions {
+  Solver solver = Solver::kTransport;
+  int nside = 16;         // of the sphere grid the light is solved on: 3072 cells
+  int iterations = 50;    // Richardson-Lucy; 20 - 50 is the knee for noisy data
+  // Transport solver only. Influence of all highlight rows and of all shading rows on the estimate; 0 leaves a kind out.
+  float highlight_weight = 1.0F;
+  float shading_weight = 1.0F;
+  // Fit one gain between highlights and shading (specular albedo and skin albedo are known only up to a factor each).
+  bool fit_highlight_gain = true;
+  // Diffuse light that a separator left in the highlights, per unit of shading; fitted, never more than this. 0 = none.
+  float max_leak = 0.2F;
+  // Steps of the per-channel stage that colours the luminance solution; few keep the colour smooth over the sphere.
+  int colour_iterations = 6;
+  int threads = 0;
+
+  std::string validate() const;
+};
+
+struct Light {
+  Eigen::MatrixX3f radiance;   // #cells x 3, linear Rec.709, relative to the photo's white and the assumed skin albedo
+  Eigen::VectorXf confidence;  // #cells, 0 = from the prior, 1 = well observed
+  Eigen::Vector3f ambient;     // the level that unobserved cells are given
+  float highlight_gain = 1;    // what the highlights were divided by to agree with the shading
+  float leak = 0;              // diffuse light found in the highlights, per unit of shading, and taken out
+};
+
+// Throws std::invalid_argument for observations or options that do not validate. No highlights at all is not an error: the
+// shading alone answers then, and without either the light is uniform with confidence 0.
+Light solve(const Observations& observations, const SolveOptions& options);
+
+// The two solvers by themselves; `solve` picks one by options.solver.
+Light solve_transport(const Observations& observations, const SolveOptions& options);
+Light solve_paper(const Observations& observations, const SolveOptions& options);
+
+}  // namespace faceprobe::lighting

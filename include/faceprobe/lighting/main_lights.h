@@ -1,0 +1,36 @@
+#pragma once
+// The few lights that a person would name: local maxima of the estimated map by non-maximum suppression, each with its direction,
+// colour, size and share of the energy.
+
+#include "faceprobe/core/sphere_grid.h"
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace faceprobe::lighting {
+
+struct MainLight {
+  Eigen::Vector3d direction;     // unit, camera frame, from the face to the light: centroid of the peak
+  Eigen::Vector3d colour;        // linear Rec.709, luminance 1
+  double irradiance = 0;         // luminance x steradian above the surroundings, on a surface that faces the light
+  double peak_radiance = 0;      // luminance of the brightest cell
+  double solid_angle_sr = 0;     // irradiance / peak radiance: the size of a uniform disc with the same peak
+  double share = 0;              // of the whole map's energy (luminance x steradian), 0..1
+};
+
+struct MainLightOptions {
+  int max_lights = 5;
+  double separation_deg = 25;  // two peaks closer than this are one light
+  double blur_deg = 4;         // the map is smoothed by a Gaussian of this width first, so that single cells do not win
+  double min_share = 0.02;     // of the energy; weaker peaks are texture
+  double min_contrast = 1.5;   // peak over the median radiance of the map
+
+  std::string validate() const;
+};
+
+// Lights by falling irradiance; empty for an even sky. `radiance`: #cells x 3.
+std::vector<MainLight> main_lights(const Eigen::MatrixX3f& radiance, const SphereGrid& grid,
+                                   const MainLightOptions& options = {});
+
+}  // namespace faceprobe::lighting

@@ -1,0 +1,41 @@
+#pragma once
+// What a face says about the light, reduced to rows: for each small patch of skin where it faces, how it was seen, and how much
+// light it mirrored and scattered. All vectors are in the camera frame, all colours linear Rec.709 with 1 = the photo's white.
+//
+// Plain data; fill it from any source of normals and layers. A sphere, a scan or a rendering do as well as a photo.
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace faceprobe::lighting {
+
+// Azimuths, counter-clockwise in the image plane from +x, at which a patch's horizon is stored.
+inline constexpr int kHorizonAzimuths = 32;
+
+struct Observations {
+  Eigen::MatrixX3f normal;     // #patches x 3, unit
+  Eigen::MatrixX3f view;       // #patches x 3, unit, from the surface to the camera
+  Eigen::MatrixX3f highlight;  // #patches x 3
+  Eigen::MatrixX3f shading;    // #patches x 3: diffuse layer divided by albedo; irradiance / pi
+  // #patches x 3, true where the photo clipped the channel: highlight and shading are lower bounds there.
+  Eigen::Array<bool, Eigen::Dynamic, 3> clipped;
+  Eigen::VectorXf roughness;        // #patches, Beckmann m
+  Eigen::VectorXf specular_albedo;  // #patches, rho_s
+  Eigen::VectorXf weight;           // #patches, > 0: skin pixels in the patch, less where the geometry is doubtful
+  // #patches x kHorizonAzimuths: tangent of the elevation (over the image plane, towards +z) under which light is blocked by
+  // the face itself. Empty = nothing blocks.
+  Eigen::MatrixXf horizon;
+
+  Eigen::Index count() const { return normal.rows(); }
+  void resize(Eigen::Index patches);
+  // Empty when usable, else a sentence that says what is missing.
+  std::string validate() const;
+};
+
+// One set after the other. Sets with and without horizon mix; where there is none, nothing blocks.
+Observations concatenate(const std::vector<Observations>& sets);
+
+}  // namespace faceprobe::lighting

@@ -1,0 +1,44 @@
+#pragma once
+// Richardson-Lucy deconvolution for any non-negative linear model p = T e (Richardson 1972; Lucy 1974; as expectation
+// maximisation of the Poisson likelihood, Shepp & Vardi 1982):
+//
+//   e_j <- e_j  [ sum_i a_i T_ij h_i / p_i ] / [ sum_i a_i T_ij ]
+//
+// Estimates stay non-negative, the weighted sum of the predictions equals that of the data after every step, and the likelihood
+// never falls. Observations that are only lower bounds (clipped pixels) pull upwards while p_i < h_i and are silent after.
+//
+// Not for signed data or signed transport.
+
+#include "faceprobe/lighting/transport.h"
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace faceprobe::lighting {
+
+struct RichardsonLucyOptions {
+  int iterations = 50;
+  // Columns whose sum of a_i T_ij is below this share of the largest are left at the start value: nothing observes them.
+  float unobserved_share = 1e-3F;
+  bool track_likelihood = false;  // costs a logarithm per observation and iteration
+  int threads = 0;
+
+  std::string validate() const;
+};
+
+struct RichardsonLucyResult {
+  Eigen::MatrixXf estimate;            // #columns x #channels
+  Eigen::VectorXf sensitivity;         // #columns: sum_i a_i T_ij
+  std::vector<double> log_likelihood;  // one before each step and one after the last: sum a (h log p - p), all channels
+};
+
+// `transport`: #rows x #columns, >= 0. `weight`: #rows. `observed`: #rows x #channels, >= 0. `lower_bound`: the same shape, or
+// empty. `start`: #columns x #channels, > 0. Bitwise the same for any number of threads.
+// Throws std::invalid_argument when the shapes disagree.
+RichardsonLucyResult richardson_lucy(const RowMatrix& transport, const Eigen::VectorXf& weight,
+                                     const Eigen::MatrixXf& observed,
+                                     const Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>& lower_bound,
+                                     const Eigen::MatrixXf& start, const RichardsonLucyOptions& options);
+
+}  // namespace faceprobe::lighting

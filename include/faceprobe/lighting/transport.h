@@ -1,0 +1,21 @@
+#pragma once
+// The transport matrices of a face: how much of the radiance in each cell of the sphere arrives in each observation.
+//
+//   highlight_i = sum_j S_ij e_j      S_ij = f(L_j, V_i) (N_i.L_j) visible_ij d_omega
+//   shading_i   = sum_j D_ij e_j      D_ij = (N_i.L_j) visible_ij d_omega / pi
+//
+// Nothing is warped: every pixel keeps its own normal, view vector, roughness, Fresnel term and horizon.
+
+#include "faceprobe/core/sphere_grid.h"
+#include "faceprobe/lighting/observations.h"
+
+#include <Eigen/Core>
+
+namespace faceprobe::lighting {
+
+using RowMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+RowMatrix highlight_transport(const Observations& observations, const SphereGrid& grid, int threads = 0);
+RowMatrix diffuse_transport(const Observations& observations, const SphereGrid& grid, int threads = 0);
+
+}  // namespace faceprobe::lighting

@@ -1,0 +1,14 @@
+#!/usr/bin/env bash
+# Builds everything and runs all tests. Arguments go to ctest.
+#
+#   scripts/test.sh                 all
+#   scripts/test.sh -R EnvMap       those whose name matches
+set -euo pipefail
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+build=$root/build/test
+"$root/scripts/setup.sh"
+cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
+  -DFACEPROBE_BUILD_TESTS=ON -DFACEPROBE_BUILD_BENCH=ON
+cmake --build "$build"
+ctest --test-dir "$build" --output-on-failure -j2 "$@"

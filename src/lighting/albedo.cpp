@@ -1,0 +1,113 @@
+#include "faceprobe/lighting/albedo.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace faceprobe::lighting {
+
+namespace {
+
+// ESTIMATES. Skin locus in linear Rec.709 from light (r/g 1.8, b/g .74) over medium (2.4, .56) to dark skin (2.7, .54).
+const Eigen::Array2d kSkinLogRatio(std::log(2.2), std::log(0.60));  // mean of log(r/g), log(b/g)
+constexpr double kSkinSigma = 0.20;                                 // scatter of people along and across the locus
+constexpr double kWhiteBalanceSigma = 0.12;                         // what a camera's white balance leaves of the light's colour
+// Lips and brows are darker than the skin around them by more than shading explains.
+constexpr std::array<float, kSkinRegionCount> kRelativeLuminance = {1, 1, 1, 1, 0.75F, 1, 1, 1, 0.5F, 1};
+
+struct Mean {
+  Eigen::Array3d sum = Eigen::Array3d::Zero();
+  double count = 0;
+  void add(const float* rgb) {
+    sum += Eigen::Map<const Eigen::Array3f>(rgb).cast<double>();
+    count += 1;
+  }
+};
+
+Eigen::Vector3f with_luminance(const Eigen::Array3d& colour, float luminance) {
+  const double found = 0.2126 * colour[0] + 0.7152 * colour[1] + 0.0722 * colour[2];
+  return (colour * (luminance / found)).matrix().cast<float>();
+}
+
+// One pass of a running mean along rows or columns, borders clamped; three make a near-Gaussian.
+void box_blur(Image& image, int radius, bool along_rows) {
+  const int length = along_rows ? image.width() : image.height();
+  const int lines = along_rows ? image.height() : image.width();
+  std::vector<float> line(static_cast<std::size_t>(length));
+  for (int l = 0; l < lines; ++l) {
+    for (int c = 0; c < image.channels(); ++c) {
+      const auto at = [&](int i) -> float& {
+        i = std::clamp(i, 0, length - 1);
+        return along_rows ? image(i, l, c) : image(l, i, c);
+      };
+      float sum = 0;
+      for (int i = -radius; i <= radius; ++i) sum += at(i);
+      for (int i = 0; i < length; ++i) {
+        line[static_cast<std::size_t>(i)] = sum / static_cast<float>(2 * radius + 1);
+        sum += at(i + radius + 1) - at(i - radius);
+      }
+      for (int i = 0; i < length; ++i) at(i) = line[static_cast<std::size_t>(i)];
+    }
+  }
+}
+
+}  // namespace
+
+AlbedoModel fit_albedo(const Image& diffuse, const ByteImage& skin_region, const ByteImage& clipped) {
+  if (!diffuse.same_size(skin_region) || !diffuse.same_size(clipped) || diffuse.channels() != 3) {
+    throw std::invalid_argument("Albedo needs a three-channel diffuse layer and region and clip maps of its size.");
+  }
+  std::array<Mean, kSkinRegionCount> regions;
+  Mean all;
+  for (int y = 0; y < diffuse.height(); ++y) {
+    for (int x = 0; x < diffuse.width(); ++x) {
+      const int region = skin_region(x, y);
+      if (region < 1 || region > kSkinRegionCount || clipped(x, y) != 0) continue;
+      const float* rgb = diffuse.pixel(x, y);
+      regions[static_cast<std::size_t>(region - 1)].add(rgb);
+      const bool own_colour = region - 1 == static_cast<int>(SkinRegion::kLips) || region - 1 == static_cast<int>(SkinRegion::kBrows);
+      if (!own_colour) all.add(rgb);
+    }
+  }
+  AlbedoModel model;
+  const Eigen::Array3d prior_skin(std::exp(kSkinLogRatio[0]), 1.0, std::exp(kSkinLogRatio[1]));
+  model.light_colour.setOnes();
+  model.region_albedo.fill(with_luminance(prior_skin, kSkinLuminance));
+  if (all.count < 1 || !(all.sum.minCoeff() > 0)) return model;
+
+  // log(product) = log(light) + log(skin); posterior mean of the first under two independent normal priors.
+  const Eigen::Array2d found(std::log(all.sum[0] / all.sum[1]), std::log(all.sum[2] / all.sum[1]));
+  constexpr double kLightVariance = kWhiteBalanceSigma * kWhiteBalanceSigma;
+  const Eigen::Array2d log_light = (found - kSkinLogRatio) * (kLightVariance / (kLightVariance + kSkinSigma * kSkinSigma));
+  const Eigen::Array3d light(std::exp(log_light[0]), 1.0, std::exp(log_light[1]));
+  model.light_colour = light.matrix().cast<float>();
+  for (std::size_t r = 0; r < regions.size(); ++r) {
+    // Regions of few pixels lean on the whole face.
+    constexpr double kLeast = 50;
+    const Eigen::Array3d mean = regions[r].sum + kLeast * all.sum / all.count;
+    if (!(mean.minCoeff() > 0)) continue;
+    model.region_albedo[r] = with_luminance(mean / light, kSkinLuminance * kRelativeLuminance[r]);
+  }
+  return model;
+}
+
+Image albedo_picture(const AlbedoModel& model, const ByteImage& skin_region) {
+  const Eigen::Vector3f elsewhere = model.region_albedo[static_cast<std::size_t>(SkinRegion::kCheeks)];
+  Image albedo(skin_region.width(), skin_region.height(), 3);
+  for (int y = 0; y < albedo.height(); ++y) {
+    for (int x = 0; x < albedo.width(); ++x) {
+      const int region = skin_region(x, y);
+      const bool skin = region >= 1 && region <= kSkinRegionCount;
+      Eigen::Map<Eigen::Vector3f>(albedo.pixel(x, y)) =
+          skin ? model.region_albedo[static_cast<std::size_t>(region - 1)] : elsewhere;
+    }
+  }
+  const int radius = std::max(1, std::max(albedo.width(), albedo.height()) / 100);
+  for (int pass = 0; pass < 3; ++pass) {
+    box_blur(albedo, radius, true);
+    box_blur(albedo, radius, false);
+  }
+  return albedo;
+}
+
+}  // namespace faceprobe::lighting

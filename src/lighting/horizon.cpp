@@ -1,0 +1,63 @@
+#include "faceprobe/lighting/horizon.h"
+
+#include "faceprobe/core/angles.h"
+#include "faceprobe/core/parallel.h"
+#include "faceprobe/lighting/observations.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace faceprobe::lighting {
+
+namespace {
+
+constexpr float kNothingBlocks = -1e6F;
+// Steps start far enough out that a patch is not shadowed by the roundness of its own neighbourhood.
+constexpr double kFirstStep = 3.0;
+constexpr double kStepGrowth = 1.15;
+constexpr float kSoftEdgeRad = 0.035F;  // half of 4 degrees
+
+}  // namespace
+
+Eigen::MatrixXf horizon_tangents(const Image& position_cam_m, const Eigen::MatrixX2i& pixels, int threads) {
+  if (position_cam_m.channels() != 3) throw std::invalid_argument("Horizons need a three-channel position picture.");
+  Eigen::MatrixXf tangents = Eigen::MatrixXf::Constant(pixels.rows(), kHorizonAzimuths, kNothingBlocks);
+  const double reach = std::hypot(position_cam_m.width(), position_cam_m.height());
+  parallel_for(static_cast<int>(pixels.rows()), threads, [&](int first, int last) {
+    for (int i = first; i < last; ++i) {
+      const Eigen::Map<const Eigen::Vector3f> here(position_cam_m.pixel(pixels(i, 0), pixels(i, 1)));
+      for (int a = 0; a < kHorizonAzimuths; ++a) {
+        const double azimuth = 2.0 * kPi * a / kHorizonAzimuths;
+        const double dx = std::cos(azimuth);
+        const double dy = -std::sin(azimuth);  // picture rows grow downwards
+        float& highest = tangents(i, a);
+        for (double step = kFirstStep; step < reach; step *= kStepGrowth) {
+          const int x = static_cast<int>(std::lround(pixels(i, 0) + step * dx));
+          const int y = static_cast<int>(std::lround(pixels(i, 1) + step * dy));
+          if (x < 0 || y < 0 || x >= position_cam_m.width() || y >= position_cam_m.height()) break;
+          const Eigen::Map<const Eigen::Vector3f> there(position_cam_m.pixel(x, y));
+          if (there.isZero()) continue;
+          const float run = std::hypot(there.x() - here.x(), there.y() - here.y());
+          if (run > 0.0F) highest = std::max(highest, (there.z() - here.z()) / run);
+        }
+      }
+    }
+  });
+  return tangents;
+}
+
+float horizon_visibility(const Eigen::Ref<const Eigen::RowVectorXf>& tangents, const Eigen::Vector3f& direction) {
+  double turn = std::atan2(static_cast<double>(direction.y()), static_cast<double>(direction.x())) / (2.0 * kPi);
+  if (turn < 0) turn += 1.0;
+  const double position = turn * kHorizonAzimuths;
+  const int before = static_cast<int>(position) % kHorizonAzimuths;
+  const int after = (before + 1) % kHorizonAzimuths;
+  const auto fraction = static_cast<float>(position - std::floor(position));
+  const float horizon = (1.0F - fraction) * std::atan(tangents[before]) + fraction * std::atan(tangents[after]);
+  const float elevation = std::atan2(direction.z(), std::hypot(direction.x(), direction.y()));
+  const float t = std::clamp((elevation - horizon) / (2.0F * kSoftEdgeRad) + 0.5F, 0.0F, 1.0F);
+  return t * t * (3.0F - 2.0F * t);
+}
+
+}  // namespace faceprobe::lighting

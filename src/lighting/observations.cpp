@@ -1,0 +1,65 @@
+#include "faceprobe/lighting/observations.h"
+
+
+namespace faceprobe::lighting {
+
+void Observations::resize(Eigen::Index patches) {
+  normal.setZero(patches, 3);
+  view.setZero(patches, 3);
+  highlight.setZero(patches, 3);
+  shading.setZero(patches, 3);
+  clipped.setConstant(patches, 3, false);
+  roughness.setConstant(patches, 0.3F);
+  specular_albedo.setConstant(patches, 0.18F);
+  weight.setOnes(patches);
+  horizon.resize(0, kHorizonAzimuths);
+}
+
+std::string Observations::validate() const {
+  const Eigen::Index n = count();
+  if (view.rows() != n || highlight.rows() != n || shading.rows() != n || clipped.rows() != n || roughness.size() != n ||
+      specular_albedo.size() != n || weight.size() != n) {
+    return "Observations need as many views, layers, flags, reflectances and weights as normals.";
+  }
+  if (horizon.rows() != 0 && (horizon.rows() != n || horizon.cols() != kHorizonAzimuths)) {
+    return "Observations need a horizon of " + std::to_string(kHorizonAzimuths) + " azimuths for each normal, or none.";
+  }
+  if (n == 0) return {};
+  if (!normal.allFinite() || !view.allFinite() || !highlight.allFinite() || !shading.allFinite() || !weight.allFinite()) {
+    return "Observations hold values that are not finite.";
+  }
+  if (highlight.minCoeff() < 0 || shading.minCoeff() < 0) return "Observations hold negative light.";
+  if (weight.minCoeff() < 0 || !(weight.maxCoeff() > 0)) return "Observation weights must be positive.";
+  if (roughness.minCoeff() < 0.02F || roughness.maxCoeff() > 1.0F) return "Roughness must lie in [.02, 1].";
+  return {};
+}
+
+Observations concatenate(const std::vector<Observations>& sets) {
+  Eigen::Index total = 0;
+  bool any_horizon = false;
+  for (const Observations& set : sets) {
+    total += set.count();
+    any_horizon = any_horizon || set.horizon.rows() > 0;
+  }
+  Observations all;
+  all.resize(total);
+  // A tangent of minus infinity lets everything pass; a large finite number keeps arithmetic on it finite.
+  if (any_horizon) all.horizon.setConstant(total, kHorizonAzimuths, -1e6F);
+  Eigen::Index at = 0;
+  for (const Observations& set : sets) {
+    const Eigen::Index n = set.count();
+    all.normal.middleRows(at, n) = set.normal;
+    all.view.middleRows(at, n) = set.view;
+    all.highlight.middleRows(at, n) = set.highlight;
+    all.shading.middleRows(at, n) = set.shading;
+    all.clipped.middleRows(at, n) = set.clipped;
+    all.roughness.segment(at, n) = set.roughness;
+    all.specular_albedo.segment(at, n) = set.specular_albedo;
+    all.weight.segment(at, n) = set.weight;
+    if (set.horizon.rows() > 0) all.horizon.middleRows(at, n) = set.horizon;
+    at += n;
+  }
+  return all;
+}
+
+}  // namespace faceprobe::lighting

@@ -1,0 +1,189 @@
+#include "faceprobe/lighting/estimate.h"
+#include "faceprobe/lighting/richardson_lucy.h"
+#include "faceprobe/lighting/transport.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <stdexcept>
+#include <vector>
+
+namespace faceprobe::lighting {
+
+namespace {
+
+using Flags = Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>;
+
+const Eigen::Vector3f kLuminance(0.2126F, 0.7152F, 0.0722F);
+
+// The two kinds of rows, each weighed so that its data carry the influence the options give it.
+struct Rows {
+  RowMatrix transport;     // highlight rows, then shading rows
+  Eigen::VectorXf weight;
+  Eigen::MatrixX3f data;
+  Flags bound;             // #rows x 3
+  Eigen::Index highlights = 0;
+};
+
+float quantile(std::vector<float> values, double share) {
+  if (values.empty()) return 0.0F;
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+float weighted_sum(const Eigen::VectorXf& weight, const Eigen::VectorXf& values) {
+  return static_cast<float>(weight.cast<double>().dot(values.cast<double>()));
+}
+
+RichardsonLucyOptions rl_options(const SolveOptions& options, int iterations) {
+  RichardsonLucyOptions rl;
+  rl.iterations = iterations;
+  rl.threads = options.threads;
+  return rl;
+}
+
+// Brings the highlights to the scale of the shading: h = gain * S e + leak * s, both fitted against the light that the shading
+// alone gives. That light is blurred, which moves energy around but hardly changes its sum, so sums are what is compared.
+void fit_highlights(const Observations& o, const RowMatrix& highlight_rows, const RowMatrix& shading_rows,
+                    const SolveOptions& options, float level, Light& light, Eigen::MatrixX3f& highlight) {
+  constexpr int kSmoothIterations = 10;
+  const Eigen::VectorXf shading = o.shading * kLuminance;
+  const Eigen::MatrixXf start = Eigen::MatrixXf::Constant(shading_rows.cols(), 1, level);
+  const Flags bound = o.clipped.rowwise().any();
+  const RichardsonLucyResult smooth =
+      richardson_lucy(shading_rows, o.weight, shading, bound, start, rl_options(options, kSmoothIterations));
+  const Eigen::VectorXf expected = highlight_rows * smooth.estimate.col(0);
+  // Clipped pixels say neither how bright nor how leaky; with all clipped there is nothing to fit.
+  Eigen::VectorXf weight = o.weight;
+  std::vector<float> found_ratio;
+  std::vector<float> expected_ratio;
+  const float least_shading = 0.05F * level;
+  const Eigen::VectorXf found = highlight * kLuminance;
+  for (Eigen::Index i = 0; i < o.count(); ++i) {
+    if (bound(i, 0)) weight[i] = 0;
+    if (weight[i] <= 0 || shading[i] < least_shading) continue;
+    found_ratio.push_back(found[i] / shading[i]);
+    expected_ratio.push_back(expected[i] / shading[i]);
+  }
+  const float expected_sum = weighted_sum(weight, expected);
+  if (found_ratio.size() < 10 || !(expected_sum > 0)) return;
+  const auto limited = [](float gain) { return std::clamp(gain, 0.05F, 20.0F); };
+  float gain = options.fit_highlight_gain ? limited(weighted_sum(weight, found) / expected_sum) : 1.0F;
+  // Where the face mirrors least, what is left above the expected mirror light is diffuse light.
+  constexpr double kLeast = 0.1;
+  float leak = 0;
+  for (int round = 0; round < 3 && options.max_leak > 0; ++round) {
+    leak = std::clamp(quantile(found_ratio, kLeast) - gain * quantile(expected_ratio, kLeast), 0.0F, options.max_leak);
+    const float left = weighted_sum(weight, (found - leak * shading).cwiseMax(0.0F));
+    if (options.fit_highlight_gain) gain = limited(left / expected_sum);
+  }
+  light.highlight_gain = gain;
+  light.leak = leak;
+  highlight = (highlight - leak * o.shading).cwiseMax(0.0F) / gain;
+}
+
+Rows stack(const Observations& o, const RowMatrix& highlight_rows, const RowMatrix& shading_rows,
+           const Eigen::MatrixX3f& highlight, const SolveOptions& options) {
+  const float highlight_flux = weighted_sum(o.weight, highlight * kLuminance);
+  const float shading_flux = weighted_sum(o.weight, o.shading * kLuminance);
+  const bool use_highlights = options.highlight_weight > 0 && highlight_flux > 0;
+  const bool use_shading = shading_flux > 0 && (options.shading_weight > 0 || !use_highlights);
+  const Eigen::Index n = o.count();
+  Rows rows;
+  rows.highlights = use_highlights ? n : 0;
+  const Eigen::Index total = rows.highlights + (use_shading ? n : 0);
+  rows.transport.resize(total, highlight_rows.cols());
+  rows.weight.resize(total);
+  rows.data.resize(total, 3);
+  rows.bound.resize(total, 3);
+  if (use_highlights) {
+    rows.transport.topRows(n) = highlight_rows;
+    rows.weight.head(n) = o.weight * (options.highlight_weight / highlight_flux);
+    rows.data.topRows(n) = highlight;
+    rows.bound.topRows(n) = o.clipped;
+  }
+  if (use_shading) {
+    rows.transport.bottomRows(n) = shading_rows;
+    rows.weight.tail(n) = o.weight * (std::max(options.shading_weight, 1e-3F) / shading_flux);
+    rows.data.bottomRows(n) = o.shading;
+    rows.bound.bottomRows(n) = o.clipped;
+  }
+  return rows;
+}
+
+// Colours the luminance solution: few multiplicative steps per channel from a map of one colour, so that colour varies over the
+// sphere no faster than the data insist on. Separate deconvolutions of the channels would give coloured speckle.
+Eigen::MatrixX3f coloured(const Rows& rows, const Eigen::VectorXf& level, const SolveOptions& options) {
+  const Eigen::RowVector3f flux = rows.weight.transpose() * rows.data;
+  const float total = flux.dot(kLuminance.transpose());
+  Eigen::RowVector3f mean_colour = (flux / total).cwiseMax(1e-4F);
+  const Eigen::MatrixXf start = (level.cwiseMax(1e-12F)) * mean_colour;
+  const RichardsonLucyResult solved = richardson_lucy(rows.transport, rows.weight, rows.data, rows.bound, start,
+                                                      rl_options(options, options.colour_iterations));
+  Eigen::MatrixX3f radiance = solved.estimate;
+  for (Eigen::Index j = 0; j < radiance.rows(); ++j) {
+    const float found = radiance.row(j).dot(kLuminance.transpose());
+    if (found > 0) radiance.row(j) *= level[j] / found;
+  }
+  return radiance;
+}
+
+// Cells that hardly anything observes take the ambient level: the median of what is observed well.
+void fill_unobserved(const Eigen::VectorXf& sensitivity, Light& light) {
+  // Relative to a typical observed cell: the largest sensitivities belong to grazing mirror angles and say little of the rest.
+  const float least = 1e-3F * sensitivity.maxCoeff();
+  std::vector<float> reached;
+  std::copy_if(sensitivity.begin(), sensitivity.end(), std::back_inserter(reached), [least](float s) { return s > least; });
+  light.confidence = (sensitivity / (0.5F * quantile(reached, 0.5))).cwiseMin(1.0F);
+  for (int channel = 0; channel < 3; ++channel) {
+    std::vector<float> observed;
+    for (Eigen::Index j = 0; j < sensitivity.size(); ++j) {
+      if (light.confidence[j] > 0.5F) observed.push_back(light.radiance(j, channel));
+    }
+    light.ambient[channel] = quantile(observed, 0.5);
+  }
+  for (Eigen::Index j = 0; j < sensitivity.size(); ++j) {
+    const float t = std::clamp((light.confidence[j] - 0.01F) / 0.09F, 0.0F, 1.0F);
+    const float trust = t * t * (3.0F - 2.0F * t);
+    light.radiance.row(j) = trust * light.radiance.row(j) + (1.0F - trust) * light.ambient.transpose();
+  }
+}
+
+}  // namespace
+
+Light solve_transport(const Observations& observations, const SolveOptions& options) {
+  if (const std::string fault = options.validate(); !fault.empty()) throw std::invalid_argument(fault);
+  if (const std::string fault = observations.validate(); !fault.empty()) throw std::invalid_argument(fault);
+  const SphereGrid grid(options.nside);
+  Light light;
+  light.radiance.setZero(grid.cell_count(), 3);
+  light.confidence.setZero(grid.cell_count());
+  light.ambient.setZero();
+  if (observations.count() == 0) return light;
+
+  const RowMatrix shading_rows = diffuse_transport(observations, grid, options.threads);
+  const RowMatrix highlight_rows = highlight_transport(observations, grid, options.threads);
+  Eigen::MatrixX3f highlight = observations.highlight;
+  const float weight = observations.weight.sum();
+  // Uniform radiance L gives a shading of at most L, so the mean shading is the right order of magnitude to start from.
+  float level = weighted_sum(observations.weight, observations.shading * kLuminance) / weight;
+  if (level > 0) {
+    fit_highlights(observations, highlight_rows, shading_rows, options, level, light, highlight);
+  } else {
+    const float per_unit = weighted_sum(observations.weight, highlight_rows.rowwise().sum());
+    level = per_unit > 0 ? weighted_sum(observations.weight, highlight * kLuminance) / per_unit : 0;
+  }
+  if (!(level > 0)) return light;
+
+  const Rows rows = stack(observations, highlight_rows, shading_rows, highlight, options);
+  const Eigen::MatrixXf start = Eigen::MatrixXf::Constant(grid.cell_count(), 1, level);
+  const Flags bound = rows.bound.rowwise().any();
+  const RichardsonLucyResult solved = richardson_lucy(rows.transport, rows.weight, rows.data * kLuminance, bound, start,
+                                                      rl_options(options, options.iterations));
+  light.radiance = coloured(rows, solved.estimate.col(0), options);
+  fill_unobserved(solved.sensitivity, light);
+  return light;
+}
+
+}  // namespace faceprobe::lighting

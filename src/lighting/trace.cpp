@@ -1,0 +1,57 @@
+#include "faceprobe/lighting/trace.h"
+
+#include "faceprobe/core/angles.h"
+
+#include <cmath>
+#include <nanoflann.hpp>
+#include <stdexcept>
+
+namespace faceprobe::lighting {
+
+TracedMap trace_highlights(const Observations& observations, const Eigen::MatrixX3f& highlight, const SphereGrid& grid,
+                           const TraceOptions& options) {
+  if (highlight.rows() != observations.count()) throw std::invalid_argument("One highlight per observation is needed.");
+  TracedMap traced;
+  traced.value.setZero(grid.cell_count(), 3);
+  traced.roughness.setConstant(grid.cell_count(), 0.3F);
+  traced.specular_albedo.setConstant(grid.cell_count(), 0.18F);
+  traced.weight.setZero(grid.cell_count());
+  if (observations.count() == 0) return traced;
+
+  const Eigen::Vector3f view = observations.view.colwise().mean().transpose().normalized();
+  using Tree = nanoflann::KDTreeEigenMatrixAdaptor<Eigen::MatrixX3f, 3>;
+  const Tree tree(3, std::cref(observations.normal), 16);
+  const auto wanted = static_cast<std::size_t>(std::min<Eigen::Index>(options.neighbours, observations.count()));
+  std::vector<Eigen::Index> index(wanted);
+  std::vector<float> squared(wanted);
+  const double gap = 2.0 * std::sin(radians(options.max_normal_gap_deg) / 2.0);  // chord of the angle
+  for (int cell = 0; cell < grid.cell_count(); ++cell) {
+    const Eigen::Vector3f sum = grid.direction(cell) + view;
+    if (sum.norm() < 1e-3F) continue;  // straight behind the head: any normal at 90 degrees would do, none does
+    const Eigen::Vector3f mirror = sum.normalized();
+    nanoflann::KNNResultSet<float, Eigen::Index> found(wanted);
+    found.init(index.data(), squared.data());
+    tree.index->findNeighbors(found, mirror.data(), nanoflann::SearchParams());
+    if (squared[0] > static_cast<float>(gap * gap)) continue;
+    float total = 0;
+    Eigen::RowVector3f value = Eigen::RowVector3f::Zero();
+    float roughness = 0;
+    float specular_albedo = 0;
+    for (std::size_t k = 0; k < wanted; ++k) {
+      // Inverse squared distance, softened by half a degree: closer than that the normals are not known.
+      const float w = observations.weight[index[k]] / (squared[k] + 7.6e-5F);
+      total += w;
+      value += w * highlight.row(index[k]);
+      roughness += w * observations.roughness[index[k]];
+      specular_albedo += w * observations.specular_albedo[index[k]];
+    }
+    if (!(total > 0)) continue;
+    traced.value.row(cell) = value / total;
+    traced.roughness[cell] = roughness / total;
+    traced.specular_albedo[cell] = specular_albedo / total;
+    traced.weight[cell] = 1.0F;
+  }
+  return traced;
+}
+
+}  // namespace faceprobe::lighting

@@ -1,0 +1,67 @@
+#pragma once
+// Small files that the io tests make for themselves.
+
+#include "faceprobe/core/error.h"
+#include "faceprobe/core/image.h"
+
+#include <OpenImageIO/imageio.h>
+#include <cstdint>
+#include <filesystem>
+#include <gtest/gtest.h>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace faceprobe::io::testing {
+
+// A folder of its own, removed with what is in it.
+class TempFolder {
+ public:
+  TempFolder();
+  TempFolder(const TempFolder&) = delete;
+  TempFolder& operator=(const TempFolder&) = delete;
+  ~TempFolder();
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+using Bytes = std::vector<std::byte>;
+
+Bytes slurp(const std::filesystem::path& path);
+void spit(const std::filesystem::path& path, std::span<const std::byte> bytes);
+Bytes to_bytes(std::string_view text);
+// Appends a number of `count` bytes.
+void put_big(Bytes& bytes, std::uint64_t value, int count);
+void put_little(Bytes& bytes, std::uint64_t value, int count);
+void put_text(Bytes& bytes, std::string_view text);
+
+// Writes with OpenImageIO's writer of that name, whatever the extension. Fails the test on an error.
+void write_with(const std::string& format, const std::filesystem::path& path, const OIIO::ImageSpec& spec,
+                OIIO::TypeDesc type, const void* values);
+void write_bytes(const std::string& format, const std::filesystem::path& path, const ByteImage& image,
+                 const OIIO::ParamValueList& attributes = {});
+
+// Four flat quadrants of different colours, 32 x 48 px: tells all eight orientations apart, survives JPEG away from edges.
+ByteImage quadrants();
+// Smooth picture with every level of each channel.
+ByteImage gradient(int width, int height, int channels);
+
+// Runs `body`; expects faceprobe::Error with this code whose sentence contains all of `parts`.
+template <class Body>
+void expect_error(ExitCode code, const std::vector<std::string>& parts, const Body& body) {
+  try {
+    body();
+    ADD_FAILURE() << "no Error was thrown";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), code) << error.what();
+    for (const std::string& part : parts) {
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << "'" << part << "' is not in: " << error.what();
+    }
+  }
+}
+
+}  // namespace faceprobe::io::testing

@@ -1,0 +1,45 @@
+#include "faceprobe/lighting/main_lights.h"
+
+#include "synthetic_face.h"
+
+#include <gtest/gtest.h>
+
+namespace faceprobe::lighting {
+namespace {
+
+using testing::lamp;
+
+TEST(MainLights, OneDiscIsFoundWithItsDirectionSizeColourAndShare) {
+  const SphereGrid grid(32);
+  const Eigen::Vector3d direction = direction_from_angles(-40, 35);
+  const std::vector<MainLight> lights = main_lights(lamp(grid, direction, 10, 0.05F, {2, 1, 0.5F}), grid);
+  ASSERT_EQ(lights.size(), 1U);
+  EXPECT_LT(angle_between_deg(lights[0].direction, direction), 1.0);  // half a cell of nside 32
+  EXPECT_NEAR(lights[0].solid_angle_sr, 2 * kPi * (1 - std::cos(radians(10))), 0.01);
+  EXPECT_NEAR(lights[0].colour[0] / lights[0].colour[2], 4.0, 0.1);
+  EXPECT_NEAR(0.2126 * lights[0].colour[0] + 0.7152 * lights[0].colour[1] + 0.0722 * lights[0].colour[2], 1.0, 1e-9);
+  const double disc = 0.2126 * 2 + 0.7152 + 0.0722 * 0.5;
+  EXPECT_NEAR(lights[0].irradiance, disc, 0.02);
+  EXPECT_NEAR(lights[0].share, disc / (disc + 0.05 * 4 * kPi), 0.02);
+}
+
+TEST(MainLights, SeveralComeByStrengthAndTwinsMerge) {
+  const SphereGrid grid(16);
+  Eigen::MatrixX3f map = lamp(grid, direction_from_angles(60, 20), 6, 0.02F);
+  map += 2.0F * lamp(grid, direction_from_angles(-60, 10), 6, 0.0F);
+  map += 0.5F * lamp(grid, direction_from_angles(-50, 15), 6, 0.0F);  // 11 degrees from the strongest: one light
+  const std::vector<MainLight> lights = main_lights(map, grid);
+  ASSERT_EQ(lights.size(), 2U);
+  EXPECT_LT(azimuth_deg(lights[0].direction), -45);
+  EXPECT_NEAR(azimuth_deg(lights[1].direction), 60, 4);
+  EXPECT_GT(lights[0].irradiance, lights[1].irradiance);
+}
+
+TEST(MainLights, EvenLightAndDarknessHaveNone) {
+  const SphereGrid grid(8);
+  EXPECT_TRUE(main_lights(Eigen::MatrixX3f::Constant(grid.cell_count(), 3, 0.7F), grid).empty());
+  EXPECT_TRUE(main_lights(Eigen::MatrixX3f::Zero(grid.cell_count(), 3), grid).empty());
+}
+
+}  // namespace
+}  // namespace faceprobe::lighting

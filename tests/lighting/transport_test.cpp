@@ -1,0 +1,65 @@
+#include "faceprobe/lighting/transport.h"
+
+#include "synthetic_face.h"
+
+#include <gtest/gtest.h>
+
+namespace faceprobe::lighting {
+namespace {
+
+TEST(Transport, DiffuseFurnaceIsOne) {
+  // A convex surface under uniform radiance 1: shading 1 wherever it faces.
+  const SphereGrid grid(16);
+  const RowMatrix rows = diffuse_transport(testing::ellipsoid_face(12), grid);
+  const Eigen::VectorXf sums = rows.rowwise().sum();
+  EXPECT_NEAR(sums.minCoeff(), 1.0F, 0.005F);  // cosine over 3072 cells
+  EXPECT_NEAR(sums.maxCoeff(), 1.0F, 0.005F);
+}
+
+TEST(Transport, MirrorLightPeaksInTheMirrorDirection) {
+  const SphereGrid grid(16);
+  Observations one;
+  one.resize(1);
+  one.normal.row(0) = direction_from_angles(20, 10).transpose().cast<float>();
+  one.view.row(0) = Eigen::RowVector3f(0, 0, 1);
+  one.roughness[0] = 0.1F;
+  const RowMatrix rows = highlight_transport(one, grid);
+  Eigen::Index best = 0;
+  rows.row(0).maxCoeff(&best);
+  const Eigen::Vector3d n = one.normal.row(0).transpose().cast<double>();
+  const Eigen::Vector3d mirrored = 2 * n.z() * n - Eigen::Vector3d::UnitZ();
+  EXPECT_LT(angle_between_deg(grid.direction(static_cast<int>(best)).cast<double>(), mirrored), 3.7);  // one cell
+}
+
+TEST(Transport, HorizonCutsWhatItShould) {
+  const SphereGrid grid(16);
+  Observations one;
+  one.resize(1);
+  one.normal.row(0) = Eigen::RowVector3f(0, 0, 1);
+  one.view.row(0) = Eigen::RowVector3f(0, 0, 1);
+  // A wall to the right whose top is 45 degrees up, nothing elsewhere.
+  one.horizon.setConstant(1, kHorizonAzimuths, -1e6F);
+  for (const int a : {kHorizonAzimuths - 2, kHorizonAzimuths - 1, 0, 1, 2}) one.horizon(0, a) = 1.0F;
+  const RowMatrix rows = diffuse_transport(one, grid);
+  EXPECT_EQ(rows(0, grid.cell_of(Eigen::Vector3f(1, 0, 0.7F))), 0.0F);
+  EXPECT_GT(rows(0, grid.cell_of(Eigen::Vector3f(1, 0, 1.6F))), 0.0F);
+  EXPECT_GT(rows(0, grid.cell_of(Eigen::Vector3f(-1, 0, 0.7F))), 0.0F);
+}
+
+TEST(Transport, SameForAnyNumberOfThreads) {
+  const SphereGrid grid(4);
+  const Observations face = testing::ellipsoid_face(12);
+  EXPECT_TRUE(highlight_transport(face, grid, 1) == highlight_transport(face, grid, 3));
+}
+
+TEST(Transport, RefusesBrokenObservations) {
+  Observations face = testing::ellipsoid_face(8);
+  face.roughness[0] = 0.0F;
+  EXPECT_THROW(diffuse_transport(face, SphereGrid(2)), std::invalid_argument);
+  face = testing::ellipsoid_face(8);
+  face.highlight(0, 0) = std::nanf("");
+  EXPECT_THROW(diffuse_transport(face, SphereGrid(2)), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace faceprobe::lighting
