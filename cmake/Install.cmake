@@ -54,5 +54,4 @@ install(FILES
   ${PROJECT_BINARY_DIR}/cmake/faceprobeConfig.cmake
   ${PROJECT_BINARY_DIR}/cmake/faceprobeConfigVersion.cmake
   ${PROJECT_SOURCE_DIR}/cmake/FindOpenCV.cmake
-  ${PROJECT_SOURCE_DIR}/cmake/FindOpenImageIO.cmake
   DESTINATION ${FACEPROBE_PACKAGE_DIR})

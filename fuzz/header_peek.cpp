@@ -1,7 +1,7 @@
 // The header parsers of all picture formats, limits included.
 
-#include "faceprobe/core/error.h"
 #include "io/header_peek.h"
+#include "faceprobe/core/error.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -2,14 +2,14 @@
 
 #include "faceprobe/core/error.h"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
 #include <array>
 #include <cerrno>
-#include <fcntl.h>
 #include <random>
 #include <string>
-#include <sys/stat.h>
 #include <system_error>
-#include <unistd.h>
 
 namespace faceprobe::io {
 namespace {
@@ -130,7 +130,8 @@ void write_file_atomically(const fs::path& path, const std::function<void(const 
 void create_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error) throw Error(ExitCode::kOutput, "The folder " + folder.string() + " cannot be made: " + error.message() + ".");
+  if (error)
+    throw Error(ExitCode::kOutput, "The folder " + folder.string() + " cannot be made: " + error.message() + ".");
   if (!fs::is_directory(folder, error)) {
     throw Error(ExitCode::kOutput, folder.string() + " is a file where a folder is wanted. Choose another name.");
   }

@@ -14,8 +14,8 @@
 namespace faceprobe::io {
 
 struct ColourModel {
-  std::string name;      // for Photo::colour_space
-  int channels = 3;      // 1 (grey) or 3
+  std::string name;  // for Photo::colour_space
+  int channels = 3;  // 1 (grey) or 3
   // Linear value of each code, 256 or 65536 of them. One table when all channels share it. Empty: codes are linear floats.
   std::array<std::vector<float>, 3> curve;
   std::optional<Eigen::Matrix3f> matrix;

@@ -11,7 +11,8 @@ namespace fs = std::filesystem;
 
 std::vector<fs::path> data_folders() {
   // A folder that the user names is the only one searched: a model missing in it must not be replaced silently by another.
-  if (const char* named = std::getenv("FACEPROBE_DATA_DIR"); named != nullptr && *named != '\0') return {fs::path(named)};
+  if (const char* named = std::getenv("FACEPROBE_DATA_DIR"); named != nullptr && *named != '\0')
+    return {fs::path(named)};
   std::vector<fs::path> folders;
   std::error_code error;
   const fs::path executable = fs::read_symlink("/proc/self/exe", error);

@@ -2,9 +2,9 @@
 
 #include "faceprobe/core/error.h"
 
-#include <cstring>
 #include <sys/mman.h>
 #include <unistd.h>
+#include <cstring>
 
 namespace faceprobe::io {
 namespace {
@@ -84,9 +84,10 @@ void Decoder::check_against(const Header& header) const {
                                             : s.width == header.width && s.height == header.height;
   if (!same || s.width <= 0 || s.height <= 0 || s.depth > 1 || s.deep || s.nchannels < 1 ||
       s.nchannels > std::max(header.channels, 4)) {
-    throw Error(ExitCode::kInput, name_ + " claims " + std::to_string(header.width) + " x " + std::to_string(header.height) +
-                                      " px, but its decoder finds " + std::to_string(s.width) + " x " +
-                                      std::to_string(s.height) + " px: it is damaged. Save it anew.");
+    throw Error(ExitCode::kInput, name_ + " claims " + std::to_string(header.width) + " x " +
+                                      std::to_string(header.height) + " px, but its decoder finds " +
+                                      std::to_string(s.width) + " x " + std::to_string(s.height) +
+                                      " px: it is damaged. Save it anew.");
   }
 }
 
@@ -130,7 +131,8 @@ void Decoder::read(int first, int count, void* codes, OIIO::TypeDesc type) {
     return;
   }
   const int y = s.y + first;
-  if (!reader_->read_scanlines(0, 0, y, y + count, s.z, first_channel_, first_channel_ + channels(), type, codes)) refuse();
+  if (!reader_->read_scanlines(0, 0, y, y + count, s.z, first_channel_, first_channel_ + channels(), type, codes))
+    refuse();
 }
 
 }  // namespace faceprobe::io

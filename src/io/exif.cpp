@@ -58,7 +58,8 @@ std::optional<double> sensor_pixels_per_mm(const OIIO::ImageSpec& spec) {
 
 OIIO::ImageSpec with_exif(const OIIO::ImageSpec& spec, const Header& header, std::span<const std::byte> bytes) {
   OIIO::ImageSpec completed = spec;
-  if (spec.find_attribute("Orientation") != nullptr || spec.find_attribute("Exif:FocalLength") != nullptr) return completed;
+  if (spec.find_attribute("Orientation") != nullptr || spec.find_attribute("Exif:FocalLength") != nullptr)
+    return completed;
   std::span<const std::byte> block;
   if (header.format == "png") block = png_exif(ByteReader(bytes, ByteOrder::kBig));
   if (header.format == "webp") block = webp_exif(ByteReader(bytes, ByteOrder::kLittle));

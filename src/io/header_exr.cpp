@@ -36,7 +36,8 @@ void read_channels(const ByteReader& r, std::uint64_t at, std::uint64_t end, std
 // Rows that share one chunk, by compression: none, RLE, ZIPS, ZIP, PIZ, PXR24, B44, B44A, DWAA, DWAB.
 std::int64_t rows_per_chunk(int compression) {
   constexpr std::int64_t kRows[] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
-  if (compression < 0 || compression > 9) throw HeaderProblem{"is an EXR of unknown compression: it is damaged or too new"};
+  if (compression < 0 || compression > 9)
+    throw HeaderProblem{"is an EXR of unknown compression: it is damaged or too new"};
   return kRows[compression];
 }
 
@@ -79,7 +80,8 @@ std::uint64_t read_part(const ByteReader& r, std::uint64_t at, std::uint64_t max
     } else if (name == "tiles") {
       part.tile_width = r.u32(at);
       part.tile_height = r.u32(at + 4);
-      if (part.tile_width <= 0 || part.tile_height <= 0) throw HeaderProblem{"is an EXR with empty tiles: it is damaged"};
+      if (part.tile_width <= 0 || part.tile_height <= 0)
+        throw HeaderProblem{"is an EXR with empty tiles: it is damaged"};
     }
     at += static_cast<std::uint64_t>(size);
   }

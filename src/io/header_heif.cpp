@@ -56,7 +56,8 @@ void read_properties(const ByteReader& r, const Box& container, int& budget, Hea
 }
 
 bool is_still_picture_brand(const ByteReader& r, const Box& ftyp) {
-  for (std::uint64_t at = ftyp.payload; at + 4 <= ftyp.end; at += at == ftyp.payload ? 8 : 4) {  // skips the minor version
+  for (std::uint64_t at = ftyp.payload; at + 4 <= ftyp.end;
+       at += at == ftyp.payload ? 8 : 4) {  // skips the minor version
     for (const char* brand : {"heic", "heix", "heim", "heis", "mif1", "avif"}) {
       if (r.matches(at, brand)) return true;
     }

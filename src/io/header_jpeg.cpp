@@ -24,7 +24,8 @@ void read_frame(const ByteReader& r, std::uint64_t at, std::uint8_t marker, Head
   }
   const int bits = r.u8(at + 4);
   if (bits != 8) {
-    throw HeaderProblem{"is a JPEG with " + std::to_string(bits) + " bits per channel; 8 are supported. Save it as PNG or TIFF"};
+    throw HeaderProblem{"is a JPEG with " + std::to_string(bits) +
+                        " bits per channel; 8 are supported. Save it as PNG or TIFF"};
   }
   const int channels = r.u8(at + 9);
   if (channels == 4) {

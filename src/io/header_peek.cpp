@@ -9,7 +9,8 @@ namespace {
 
 bool is_tiff(const ByteReader& r) {
   using namespace std::string_view_literals;
-  return r.matches(0, "II\x2a\0"sv) || r.matches(0, "MM\0\x2a"sv) || r.matches(0, "II\x2b\0"sv) || r.matches(0, "MM\0\x2b"sv);
+  return r.matches(0, "II\x2a\0"sv) || r.matches(0, "MM\0\x2a"sv) || r.matches(0, "II\x2b\0"sv) ||
+         r.matches(0, "MM\0\x2b"sv);
 }
 
 Header peek(std::span<const std::byte> bytes) {
@@ -44,8 +45,8 @@ Header peek_header(std::span<const std::byte> bytes, const std::string& name) {
 }
 
 void check_limits(const Header& header, std::int64_t file_bytes, const std::string& name, const Limits& limits) {
-  const std::string claim = name + " claims " + size_text(header.width, header.height) + " px in " +
-                            std::to_string(file_bytes) + " bytes; ";
+  const std::string claim =
+      name + " claims " + size_text(header.width, header.height) + " px in " + std::to_string(file_bytes) + " bytes; ";
   const auto refuse = [&](const std::string& what) { throw Error(ExitCode::kInput, claim + what); };
   // Double precision: the product of two hostile 64-bit numbers must not wrap.
   const double pixels = static_cast<double>(header.width) * static_cast<double>(header.height);
@@ -58,15 +59,18 @@ void check_limits(const Header& header, std::int64_t file_bytes, const std::stri
   }
   if (static_cast<double>(header.tile_width) * static_cast<double>(header.tile_height) >
       std::max(static_cast<double>(limits.max_pixels), pixels)) {
-    refuse("and tiles of " + size_text(header.tile_width, header.tile_height) + " px. Its header is damaged or malicious.");
+    refuse("and tiles of " + size_text(header.tile_width, header.tile_height) +
+           " px. Its header is damaged or malicious.");
   }
   if (header.channels > limits.max_channels) {
     throw Error(ExitCode::kInput, name + " has " + std::to_string(header.channels) + " channels; at most " +
-                                      std::to_string(limits.max_channels) + " are allowed. Keep only its colour channels.");
+                                      std::to_string(limits.max_channels) +
+                                      " are allowed. Keep only its colour channels.");
   }
   if (header.scans > limits.max_jpeg_scans) {
     throw Error(ExitCode::kInput, name + " has " + std::to_string(header.scans) + " JPEG scans; at most " +
-                                      std::to_string(limits.max_jpeg_scans) + " are allowed. Save it anew as a baseline JPEG.");
+                                      std::to_string(limits.max_jpeg_scans) +
+                                      " are allowed. Save it anew as a baseline JPEG.");
   }
   const double declared = pixels * header.channels * std::max(header.bits, 8) / 8.0;
   if (declared > static_cast<double>(limits.expansion_free_bytes) &&

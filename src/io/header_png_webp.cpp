@@ -75,7 +75,8 @@ void read_vp8l(const ByteReader& r, std::uint64_t at, Header& header) {
 
 Header peek_png(std::span<const std::byte> bytes) {
   const ByteReader r(bytes, ByteOrder::kBig);
-  if (!r.matches(12, "IHDR") || r.u32(8) != 13) throw HeaderProblem{"is a PNG whose first chunk is no IHDR: it is damaged"};
+  if (!r.matches(12, "IHDR") || r.u32(8) != 13)
+    throw HeaderProblem{"is a PNG whose first chunk is no IHDR: it is damaged"};
   Header header;
   header.format = "png";
   header.width = r.u32(16);

@@ -39,7 +39,8 @@ Header peek_radiance(std::span<const std::byte> bytes) {
     if (!text.empty() && text != "\r") continue;
     std::string_view resolution = r.text_until(at, '\n', kMaxLine);
     if (!take(resolution, "-Y ", header.height) || !take(resolution, " +X ", header.width)) {
-      throw HeaderProblem{"is a Radiance picture whose resolution line is not '-Y height +X width': turn it upright first"};
+      throw HeaderProblem{
+          "is a Radiance picture whose resolution line is not '-Y height +X width': turn it upright first"};
     }
     return header;
   }

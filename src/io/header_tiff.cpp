@@ -17,10 +17,10 @@ struct Layout {
 
 std::uint64_t type_size(std::uint16_t type) {
   switch (type) {
-    case 3: return 2;             // SHORT
-    case 4: return 4;             // LONG
-    case 16: return 8;            // LONG8
-    default: return 0;            // not used by the tags below
+    case 3: return 2;   // SHORT
+    case 4: return 4;   // LONG
+    case 16: return 8;  // LONG8
+    default: return 0;  // not used by the tags below
   }
 }
 
@@ -33,7 +33,8 @@ std::uint64_t entry_value(const ByteReader& r, const Layout& layout, std::uint64
   std::uint64_t place = field + index * size;
   if (count > layout.inline_ / size) {
     const std::uint64_t offset = layout.big ? r.u64(field) : r.u32(field);
-    if (!r.has(offset, (index + 1) * size)) throw HeaderProblem{"is a TIFF with a tag outside the file: it is cut short"};
+    if (!r.has(offset, (index + 1) * size))
+      throw HeaderProblem{"is a TIFF with a tag outside the file: it is cut short"};
     place = offset + index * size;
   }
   return size == 2 ? r.u16(place) : size == 4 ? r.u32(place) : r.u64(place);
@@ -41,12 +42,17 @@ std::uint64_t entry_value(const ByteReader& r, const Layout& layout, std::uint64
 
 void refuse_colour(std::uint64_t photometric) {
   switch (photometric) {
-    case 0: case 1: case 2: case 3: case 6: return;  // white- and black-is-zero, RGB, palette, YCbCr
+    case 0:
+    case 1:
+    case 2:
+    case 3:
+    case 6: return;  // white- and black-is-zero, RGB, palette, YCbCr
     case 5: throw HeaderProblem{"is a CMYK TIFF; only grey and RGB photos are read. Convert it to RGB first"};
-    case 8: case 9: case 10:
-      throw HeaderProblem{"is a Lab TIFF; only grey and RGB photos are read. Convert it to RGB first"};
-    case 32803: case 34892:
-      throw HeaderProblem{"holds raw sensor data, which is not read. Develop it to a 16-bit TIFF first"};
+    case 8:
+    case 9:
+    case 10: throw HeaderProblem{"is a Lab TIFF; only grey and RGB photos are read. Convert it to RGB first"};
+    case 32803:
+    case 34892: throw HeaderProblem{"holds raw sensor data, which is not read. Develop it to a 16-bit TIFF first"};
     default:
       throw HeaderProblem{"is a TIFF of an unsupported colour kind (" + std::to_string(photometric) +
                           "); only grey and RGB photos are read"};
@@ -64,7 +70,8 @@ Header peek_tiff(std::span<const std::byte> bytes) {
   const bool big = r.u16(2) == 43;
   const Layout layout = big ? Layout{true, 20, 8} : Layout{false, 12, 4};
   const std::uint64_t directory = big ? r.u64(8) : r.u32(4);
-  if (!r.has(directory, big ? 8 : 2)) throw HeaderProblem{"is a TIFF whose directory lies outside the file: it is cut short"};
+  if (!r.has(directory, big ? 8 : 2))
+    throw HeaderProblem{"is a TIFF whose directory lies outside the file: it is cut short"};
   const std::uint64_t entries = big ? r.u64(directory) : r.u16(directory);
   if (entries == 0 || entries > kMaxEntries) {
     throw HeaderProblem{"is a TIFF with " + std::to_string(entries) + " tags, at most 1000 are allowed: it is damaged"};
@@ -92,7 +99,8 @@ Header peek_tiff(std::span<const std::byte> bytes) {
       case 322: header.tile_width = clamp_side(entry_value(r, layout, at)); break;
       case 323: header.tile_height = clamp_side(entry_value(r, layout, at)); break;
       case 339: header.is_float = entry_value(r, layout, at) == 3; break;
-      case 50706: throw HeaderProblem{"holds raw sensor data (DNG), which is not read. Develop it to a 16-bit TIFF first"};
+      case 50706:
+        throw HeaderProblem{"holds raw sensor data (DNG), which is not read. Develop it to a 16-bit TIFF first"};
       default: break;
     }
   }

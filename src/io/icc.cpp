@@ -2,8 +2,8 @@
 
 #include "faceprobe/core/color.h"
 
-#include <Eigen/LU>
 #include <lcms2.h>
+#include <Eigen/LU>
 #include <memory>
 #include <type_traits>
 
@@ -124,8 +124,8 @@ std::string description(cmsHPROFILE profile) {
 std::optional<ColourModel> model_from_icc(std::span<const std::byte> profile_bytes, int channels, std::size_t levels,
                                           std::string& problem) {
   const Context context(cmsCreateContext(nullptr, nullptr), cmsDeleteContext);
-  const Profile profile(
-      cmsOpenProfileFromMemTHR(context.get(), profile_bytes.data(), static_cast<cmsUInt32Number>(profile_bytes.size())));
+  const Profile profile(cmsOpenProfileFromMemTHR(context.get(), profile_bytes.data(),
+                                                 static_cast<cmsUInt32Number>(profile_bytes.size())));
   if (!profile) {
     problem = "is damaged";
     return std::nullopt;

@@ -9,7 +9,8 @@ namespace faceprobe::io {
 Image linear_picture_from_bytes(std::span<const std::byte> bytes, const std::string& name, const Limits& limits) {
   const Header header = accept_header(bytes, name, limits);
   if (header.format != "exr" && header.format != "hdr") {
-    throw Error(ExitCode::kInput, name + " is a " + header.format + " file; a linear picture is read from .exr or .hdr only.");
+    throw Error(ExitCode::kInput,
+                name + " is a " + header.format + " file; a linear picture is read from .exr or .hdr only.");
   }
   Decoder decoder(bytes, header, name);
   const int colours = decoder.colour_channels();
@@ -32,7 +33,8 @@ Image linear_picture_from_bytes(std::span<const std::byte> bytes, const std::str
 
 Image read_linear_picture(const std::filesystem::path& path, const Limits& limits) {
   if (const std::string problem = limits.validate(); !problem.empty()) throw Error(ExitCode::kUsage, problem);
-  return linear_picture_from_bytes(read_regular_file(path, limits.max_file_bytes, kFileBytesAdvice), path.string(), limits);
+  return linear_picture_from_bytes(read_regular_file(path, limits.max_file_bytes, kFileBytesAdvice), path.string(),
+                                   limits);
 }
 
 EnvMap read_env_map(const std::filesystem::path& path, Orientation orientation, const Limits& limits) {

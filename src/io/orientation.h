@@ -6,7 +6,7 @@
 namespace faceprobe::io {
 
 struct Upright {
-  int width;   // of the upright picture
+  int width;  // of the upright picture
   int height;
   // Stored pixel (x, y) belongs at pixel number origin + x * step_x + y * step_y of the upright picture.
   std::ptrdiff_t origin;
@@ -20,7 +20,8 @@ Upright upright(int orientation, int stored_width, int stored_height);
 // Copies `rows` stored rows, starting with row `first_row`, into the upright picture; `channels` values per pixel. The inner
 // loop runs along the target's rows, so that a turned picture does not cost a cache miss per pixel.
 template <class T>
-void place_rows(const Upright& place, const T* stored, int stored_width, int first_row, int rows, int channels, T* target) {
+void place_rows(const Upright& place, const T* stored, int stored_width, int first_row, int rows, int channels,
+                T* target) {
   const bool along_x = place.step_x == 1 || place.step_x == -1;
   const int outer_count = along_x ? rows : stored_width;
   const int inner_count = along_x ? stored_width : rows;

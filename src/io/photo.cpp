@@ -16,7 +16,8 @@
 namespace faceprobe::io {
 namespace {
 
-constexpr int kBlockRows = 32;  // rows decoded at a time: the encoded picture never exists as a whole beside the linear one
+constexpr int kBlockRows =
+    32;  // rows decoded at a time: the encoded picture never exists as a whole beside the linear one
 
 // A value from here on may have been cut off at the top of the range.
 template <class Code>
@@ -34,7 +35,8 @@ template <class Code>
 class Loader {
  public:
   Loader(Decoder& decoder, const ColourModel& model, const Upright& place, bool lossy, Photo& photo)
-      : decoder_(decoder), model_(model), place_(place), grey_tolerance_(lossy && sizeof(Code) == 1 ? 1 : 0), photo_(photo) {}
+      : decoder_(decoder), model_(model), place_(place), grey_tolerance_(lossy && sizeof(Code) == 1 ? 1 : 0),
+        photo_(photo) {}
 
   void run() {
     const int width = decoder_.width();
@@ -96,7 +98,8 @@ class Loader {
 
   void report() {
     if (counts_.not_finite > 0) {
-      photo_.warnings.push_back(std::to_string(counts_.not_finite) + " values are infinite or not numbers; they count as 0.");
+      photo_.warnings.push_back(std::to_string(counts_.not_finite) +
+                                " values are infinite or not numbers; they count as 0.");
     }
     if (counts_.negative > 0) {
       photo_.warnings.push_back(std::to_string(counts_.negative) + " values are negative; they count as 0.");
@@ -147,7 +150,8 @@ ColourModel choose_model(const Decoder& decoder, const Header& header, const Lim
 }
 
 bool contains(std::span<const std::byte> bytes, std::string_view text) {
-  return std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()).find(text) != std::string_view::npos;
+  return std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()).find(text) !=
+         std::string_view::npos;
 }
 
 void warn_about_extras(const Decoder& decoder, const Header& header, std::span<const std::byte> bytes, Photo& photo) {
@@ -193,7 +197,8 @@ Photo photo_from_bytes(std::span<const std::byte> bytes, const std::string& name
   const ColourModel model = choose_model(decoder, header, limits, photo);
   photo.colour_space = model.name;
   const OIIO::ImageSpec attributes = with_exif(decoder.spec(), header, bytes);
-  photo.exif_orientation = exif_orientation(attributes);
+  // libheif has turned the picture already, by HEIF's own properties; what its EXIF block says then must not count again.
+  photo.exif_orientation = header.format == "heif" ? 1 : exif_orientation(attributes);
   photo.focal_px = exif_focal_px(attributes);
   const Upright place = upright(photo.exif_orientation, decoder.width(), decoder.height());
   switch (decoder.type()) {

@@ -90,8 +90,7 @@ void write_hdr(const std::filesystem::path& path, const Image& image, const Attr
 }
 
 void write_png(const std::filesystem::path& path, const ByteImage& image, const Attributes& attributes) {
-  OIIO::ImageSpec spec =
-      make_spec(image.width(), image.height(), image.channels(), OIIO::TypeDesc::UINT8, attributes);
+  OIIO::ImageSpec spec = make_spec(image.width(), image.height(), image.channels(), OIIO::TypeDesc::UINT8, attributes);
   spec.attribute("oiio:ColorSpace", "sRGB");
   spec.attribute("oiio:UnassociatedAlpha", 1);  // written as it is, not divided by alpha
   spec.attribute("png:compressionLevel", kPngLevel);

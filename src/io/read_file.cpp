@@ -3,11 +3,11 @@
 #include "faceprobe/core/error.h"
 #include "faceprobe/io/data_files.h"
 
-#include <cerrno>
 #include <fcntl.h>
 #include <sys/stat.h>
-#include <system_error>
 #include <unistd.h>
+#include <cerrno>
+#include <system_error>
 
 namespace faceprobe::io {
 namespace {
@@ -33,7 +33,8 @@ std::string system_reason() { return std::generic_category().message(errno); }
 void require_regular(const struct stat& status, const std::string& name) {
   if (S_ISREG(status.st_mode)) return;
   if (S_ISDIR(status.st_mode)) refuse(name + " is a folder, not a file. Name the file in it.");
-  if (S_ISFIFO(status.st_mode)) refuse(name + " is a pipe; only regular files are read. Save its contents to a file first.");
+  if (S_ISFIFO(status.st_mode))
+    refuse(name + " is a pipe; only regular files are read. Save its contents to a file first.");
   refuse(name + " is a device or socket; only regular files are read.");
 }
 
@@ -51,8 +52,8 @@ std::vector<std::byte> read_regular_file(const std::filesystem::path& path, std:
   if (::fstat(file.get(), &status) != 0) refuse(name + " cannot be read: " + system_reason() + ".");
   require_regular(status, name);
   const auto refuse_length = [&](std::int64_t found) {
-    refuse(name + " has " + std::to_string(found) + " bytes; at most " + std::to_string(max_bytes) + " are allowed" + advice +
-           ".");
+    refuse(name + " has " + std::to_string(found) + " bytes; at most " + std::to_string(max_bytes) + " are allowed" +
+           advice + ".");
   };
   if (status.st_size > max_bytes) refuse_length(status.st_size);
 

@@ -72,7 +72,8 @@ json parse_header(std::string_view text) {
 }
 
 std::uint64_t unsigned_number(const json& value, const std::string& name) {
-  if (!value.is_number_unsigned()) throw Problem{"has a size or offset that is no whole number in tensor " + quoted(name)};
+  if (!value.is_number_unsigned())
+    throw Problem{"has a size or offset that is no whole number in tensor " + quoted(name)};
   return value.get<std::uint64_t>();
 }
 
@@ -142,7 +143,9 @@ std::vector<float> read_values(const Entry& entry, std::span<const std::byte> da
     std::uint32_t bits = 0;
     for (std::size_t i = 0; i < width; ++i) bits |= std::to_integer<std::uint32_t>(from[i]) << (8 * i);
     from += width;
-    value = entry.dtype == Dtype::kF32 ? from_bits(bits) : entry.dtype == Dtype::kBf16 ? from_bits(bits << 16) : from_half(bits);
+    value = entry.dtype == Dtype::kF32    ? from_bits(bits)
+            : entry.dtype == Dtype::kBf16 ? from_bits(bits << 16)
+                                          : from_half(bits);
     if (!std::isfinite(value)) throw Problem{"holds NaN or infinity in tensor " + quoted(entry.name)};
   }
   return values;
@@ -150,9 +153,8 @@ std::vector<float> read_values(const Entry& entry, std::span<const std::byte> da
 
 // In the order of their offsets the tensors must follow one another from the first byte of data to the last.
 void require_full_cover(std::vector<Entry>& entries, std::uint64_t data_size) {
-  std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
-    return a.begin != b.begin ? a.begin < b.begin : a.end < b.end;
-  });
+  std::sort(entries.begin(), entries.end(),
+            [](const Entry& a, const Entry& b) { return a.begin != b.begin ? a.begin < b.begin : a.end < b.end; });
   std::uint64_t reached = 0;
   for (const Entry& entry : entries) {
     if (entry.begin < reached) throw Problem{"has tensor " + quoted(entry.name) + " overlapping another"};
@@ -212,8 +214,8 @@ const Tensor& TensorFile::tensor(const std::string& name, const std::vector<std:
                                       ". They belong to another network or version.");
   }
   if (found->second.shape != shape) {
-    throw Error(ExitCode::kModel, "The weights have tensor " + quoted(name) + " of shape " + shape_text(found->second.shape) +
-                                      " where " + shape_text(shape) +
+    throw Error(ExitCode::kModel, "The weights have tensor " + quoted(name) + " of shape " +
+                                      shape_text(found->second.shape) + " where " + shape_text(shape) +
                                       " is wanted. They belong to another network or version.");
   }
   return found->second;

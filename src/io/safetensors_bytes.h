@@ -9,6 +9,7 @@
 
 namespace faceprobe::io {
 
-TensorFile safetensors_from_bytes(std::span<const std::byte> bytes, const std::string& name, const TensorFileLimits& limits);
+TensorFile safetensors_from_bytes(std::span<const std::byte> bytes, const std::string& name,
+                                  const TensorFileLimits& limits);
 
 }  // namespace faceprobe::io

@@ -2,11 +2,11 @@
 
 #include "fixtures.h"
 
-#include <csignal>
-#include <fstream>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <csignal>
+#include <fstream>
 
 namespace faceprobe::io {
 namespace {

@@ -5,8 +5,8 @@
 #include "fixtures.h"
 #include "io/icc.h"
 
-#include <Eigen/LU>
 #include <lcms2.h>
+#include <Eigen/LU>
 #include <memory>
 
 namespace faceprobe::io {
@@ -62,7 +62,8 @@ OIIO::ParamValueList with_profile(const Bytes& profile) {
 ByteImage flat(const std::vector<std::array<std::uint8_t, 3>>& colours) {
   ByteImage image(static_cast<int>(colours.size()), 2, 3);
   for (int y = 0; y < 2; ++y) {
-    for (int x = 0; x < image.width(); ++x) std::copy_n(colours[static_cast<std::size_t>(x)].data(), 3, image.pixel(x, y));
+    for (int x = 0; x < image.width(); ++x)
+      std::copy_n(colours[static_cast<std::size_t>(x)].data(), 3, image.pixel(x, y));
   }
   return image;
 }
@@ -96,9 +97,11 @@ void expect_converted(const Primaries& primaries, const Curve& curve, double (*d
     EXPECT_TRUE(photo.warnings.empty()) << photo.warnings.front();
     for (int x = 0; x < photo.linear.width(); ++x) {
       Eigen::Vector3d encoded;
-      for (int c = 0; c < 3; ++c) encoded[c] = decode(kColours[static_cast<std::size_t>(x)][static_cast<std::size_t>(c)] / 255.0);
+      for (int c = 0; c < 3; ++c)
+        encoded[c] = decode(kColours[static_cast<std::size_t>(x)][static_cast<std::size_t>(c)] / 255.0);
       const Eigen::Vector3d expected = (m * encoded).cwiseMax(0.0);
-      for (int c = 0; c < 3; ++c) EXPECT_NEAR(photo.linear(x, 0, c), expected[c], kProfileTolerance) << format << " " << x;
+      for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(photo.linear(x, 0, c), expected[c], kProfileTolerance) << format << " " << x;
     }
   }
 }
@@ -126,14 +129,17 @@ TEST(Colour, FastPathAgreesWithLcms) {
   ASSERT_TRUE(model) << problem;
   ASSERT_FALSE(model->transform);
   const Bytes linear = rgb_profile(kRec709, gamma_curve(1.0));
-  const auto open = [](const Bytes& b) { return cmsOpenProfileFromMem(b.data(), static_cast<cmsUInt32Number>(b.size())); };
+  const auto open = [](const Bytes& b) {
+    return cmsOpenProfileFromMem(b.data(), static_cast<cmsUInt32Number>(b.size()));
+  };
   cmsHPROFILE from = open(profile);
   cmsHPROFILE to = open(linear);
   cmsHTRANSFORM transform =
       cmsCreateTransform(from, TYPE_RGB_FLT, to, TYPE_RGB_FLT, INTENT_RELATIVE_COLORIMETRIC, cmsFLAGS_NOCACHE);
   for (std::uint16_t v = 0; v < 60000; v = static_cast<std::uint16_t>(v + 1499)) {
     const std::uint16_t codes[3] = {v, static_cast<std::uint16_t>(60000 - v), 30000};
-    const float unit[3] = {static_cast<float>(codes[0]) / 65535.0F, static_cast<float>(codes[1]) / 65535.0F, 30000.0F / 65535.0F};
+    const float unit[3] = {static_cast<float>(codes[0]) / 65535.0F, static_cast<float>(codes[1]) / 65535.0F,
+                           30000.0F / 65535.0F};
     float expected[3];
     float found[3];
     cmsDoTransform(transform, unit, expected, 1);
@@ -154,7 +160,8 @@ TEST(Colour, GreyProfile) {
   const ByteImage codes = gradient(32, 8, 1);
   EXPECT_TRUE(photo.warnings.empty());
   EXPECT_TRUE(photo.grey);
-  for (int c = 0; c < 3; ++c) EXPECT_NEAR(photo.linear(20, 3, c), std::pow(codes(20, 3) / 255.0, 1.8), kProfileTolerance);
+  for (int c = 0; c < 3; ++c)
+    EXPECT_NEAR(photo.linear(20, 3, c), std::pow(codes(20, 3) / 255.0, 1.8), kProfileTolerance);
 }
 
 TEST(Colour, ProfilesThatCannotBeUsedGiveAWarningAndSrgb) {

@@ -47,7 +47,8 @@ TEST_F(DataFolder, NamedFolderIsTheOnlyOne) {
   ::setenv("FACEPROBE_DATA_DIR", folder.path().c_str(), 1);
   EXPECT_EQ(data_folders().size(), 1U);
   EXPECT_EQ(data_file("model.bin"), folder / "model.bin");
-  expect_error(ExitCode::kModel, {"other.bin", folder.path().string(), "scripts/setup.sh"}, [] { data_file("other.bin"); });
+  expect_error(ExitCode::kModel, {"other.bin", folder.path().string(), "scripts/setup.sh"},
+               [] { data_file("other.bin"); });
 }
 
 TEST_F(DataFolder, OtherwiseBesideTheProgramThenTheBuild) {

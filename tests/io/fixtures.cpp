@@ -89,7 +89,8 @@ ByteImage gradient(int width, int height, int channels) {
   ByteImage image(width, height, channels);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      for (int c = 0; c < channels; ++c) image(x, y, c) = static_cast<std::uint8_t>((x * (c + 1) + 3 * y + 40 * c) % 256);
+      for (int c = 0; c < channels; ++c)
+        image(x, y, c) = static_cast<std::uint8_t>((x * (c + 1) + 3 * y + 40 * c) % 256);
     }
   }
   return image;

@@ -5,9 +5,9 @@
 #include "faceprobe/core/image.h"
 
 #include <OpenImageIO/imageio.h>
+#include <gtest/gtest.h>
 #include <cstdint>
 #include <filesystem>
-#include <gtest/gtest.h>
 #include <span>
 #include <string>
 #include <string_view>
@@ -59,7 +59,8 @@ void expect_error(ExitCode code, const std::vector<std::string>& parts, const Bo
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), code) << error.what();
     for (const std::string& part : parts) {
-      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << "'" << part << "' is not in: " << error.what();
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos)
+          << "'" << part << "' is not in: " << error.what();
     }
   }
 }

@@ -43,7 +43,9 @@ Bytes jpeg_header(int kind, int width, int height, int components, int scans) {
 
 Bytes tiff_header(bool little, const std::vector<std::array<std::uint64_t, 3>>& tags) {  // tag, type, value
   Bytes b = to_bytes(little ? "II" : "MM");
-  const auto put = [&](std::uint64_t value, int count) { little ? put_little(b, value, count) : put_big(b, value, count); };
+  const auto put = [&](std::uint64_t value, int count) {
+    little ? put_little(b, value, count) : put_big(b, value, count);
+  };
   put(42, 2);
   put(8, 4);
   put(tags.size(), 2);
@@ -171,7 +173,8 @@ TEST(HeaderPeek, JpegKindsThatAreRefused) {
 TEST(HeaderPeek, TiffInBothByteOrders) {
   for (const bool little : {true, false}) {
     const Header h = peek_header(
-        tiff_header(little, {{256, 4, 5000}, {257, 3, 3000}, {258, 3, 16}, {262, 3, 2}, {277, 3, 3}, {322, 3, 64}, {323, 3, 32}}),
+        tiff_header(little,
+                    {{256, 4, 5000}, {257, 3, 3000}, {258, 3, 16}, {262, 3, 2}, {277, 3, 3}, {322, 3, 64}, {323, 3, 32}}),
         "x");
     EXPECT_EQ(h.format, "tiff");
     EXPECT_EQ(h.width, 5000);

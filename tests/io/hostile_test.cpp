@@ -79,7 +79,8 @@ TEST(Hostile, CutShort) {
       const Bytes cut(sample.bytes.begin(), sample.bytes.begin() + static_cast<std::ptrdiff_t>(size));
       const bool loaded = survives(cut);
       // TIFF may keep its pixels in front of its directory's last bytes; the others must not pass as whole.
-      EXPECT_FALSE(loaded && sample.format != "tiff") << sample.format << " cut to " << size << " of " << sample.bytes.size();
+      EXPECT_FALSE(loaded && sample.format != "tiff")
+          << sample.format << " cut to " << size << " of " << sample.bytes.size();
     }
   }
 }

@@ -5,9 +5,9 @@
 #include "faceprobe/io/photo.h"
 #include "fixtures.h"
 
-#include <chrono>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <chrono>
 
 namespace faceprobe::io {
 namespace {
@@ -64,7 +64,8 @@ TEST(LimitsTest, PngBomb) {
   std::copy(side.begin(), side.end(), b.begin() + 16);
   std::copy(side.begin(), side.end(), b.begin() + 20);
   spit(path, b);
-  expect_refused(path, {"bomb.png", "46340 x 46340 px", std::to_string(b.size()) + " bytes", "100000000", "--max-pixels"});
+  expect_refused(path,
+                 {"bomb.png", "46340 x 46340 px", std::to_string(b.size()) + " bytes", "100000000", "--max-pixels"});
 }
 
 TEST(LimitsTest, JpegBombs) {

@@ -42,9 +42,8 @@ Bytes png_with_exif(const Bytes& png, const Bytes& exif) {
   whole.insert(whole.end(), chunk.begin(), chunk.end());
   put_big(whole, png_crc(chunk), 4);
   constexpr std::ptrdiff_t kAfterHeader = 8 + 25;  // signature and IHDR
-  Bytes result(png.begin(), png.begin() + kAfterHeader);
-  result.insert(result.end(), whole.begin(), whole.end());
-  result.insert(result.end(), png.begin() + kAfterHeader, png.end());
+  Bytes result = png;
+  result.insert(result.begin() + kAfterHeader, whole.begin(), whole.end());
   return result;
 }
 
@@ -65,22 +64,23 @@ Bytes webp_with_exif(const Bytes& simple, const Bytes& exif, int width, int heig
   return whole;
 }
 
-// Two columns, red and blue, three rows; orientation 8 turns them by a quarter.
+// Red left, blue right, 16 x 24 px; orientation 8 turns it by a quarter.
 ByteImage red_blue() {
-  ByteImage image(2, 3, 3, 0);
-  for (int y = 0; y < 3; ++y) {
-    image(0, y, 0) = 255;
-    image(1, y, 2) = 255;
+  ByteImage image(16, 24, 3, 0);
+  for (int y = 0; y < 24; ++y) {
+    for (int x = 0; x < 16; ++x) image(x, y, x < 8 ? 0 : 2) = 255;
   }
   return image;
 }
 
 void expect_turned(const Photo& photo) {
   EXPECT_EQ(photo.exif_orientation, 8);
-  ASSERT_EQ(photo.linear.width(), 3);
-  ASSERT_EQ(photo.linear.height(), 2);
-  EXPECT_EQ(photo.linear(0, 0, 2), 1.0F);  // 8: the stored right column is the upright top row
-  EXPECT_EQ(photo.linear(0, 1, 0), 1.0F);
+  ASSERT_EQ(photo.linear.width(), 24);
+  ASSERT_EQ(photo.linear.height(), 16);
+  // 8: the stored right side is the upright top. 0.05: the WebP writer's YUV rounding at full light.
+  EXPECT_NEAR(photo.linear(4, 2, 2), 1.0F, 0.05F);
+  EXPECT_NEAR(photo.linear(4, 13, 0), 1.0F, 0.05F);
+  EXPECT_NEAR(photo.linear(4, 13, 2), 0.0F, 0.05F);
 }
 
 TEST(Metadata, PngOrientation) {
@@ -95,7 +95,7 @@ TEST(Metadata, WebpOrientation) {
   write_bytes("webp", folder / "x.webp", red_blue());
   const Bytes simple = slurp(folder / "x.webp");
   ASSERT_EQ(std::to_integer<char>(simple[15]), 'L');
-  spit(folder / "x.webp", webp_with_exif(simple, exif_block(8), 2, 3));
+  spit(folder / "x.webp", webp_with_exif(simple, exif_block(8), 16, 24));
   expect_turned(load_photo(folder / "x.webp"));
 }
 
@@ -105,7 +105,7 @@ TEST(Metadata, NonsenseOrientationCountsAsUpright) {
   spit(folder / "x.png", png_with_exif(slurp(folder / "x.png"), exif_block(77)));
   const Photo photo = load_photo(folder / "x.png");
   EXPECT_EQ(photo.exif_orientation, 1);
-  EXPECT_EQ(photo.linear.width(), 2);
+  EXPECT_EQ(photo.linear.width(), 16);
 }
 
 TEST(Metadata, FocalLengthFrom35mmEquivalent) {

@@ -10,6 +10,10 @@
 #include <cmath>
 #include <limits>
 
+// The HEVC encoder that one fixture uses keeps an allocation; without LeakSanitizer nobody calls this.
+extern "C" const char* __lsan_default_suppressions();
+extern "C" const char* __lsan_default_suppressions() { return "leak:libx265\n"; }
+
 namespace faceprobe::io {
 namespace {
 
@@ -55,14 +59,12 @@ TEST(PhotoTest, AllOrientationsGiveTheSamePicture) {
   TempFolder folder;
   const ByteImage scene = quadrants();
   const Image expected = decode_srgb(scene);
-  for (const char* format : {"jpeg", "tiff", "png", "webp"}) {
+  for (const char* format : {"jpeg", "tiff"}) {  // PNG and WebP: metadata_test.cpp, whose chunks are made by hand
     for (int orientation = 1; orientation <= 8; ++orientation) {
       OIIO::ParamValueList attributes;
       attributes.attribute("Orientation", orientation);
       const fs::path path = folder / "x";
       write_bytes(format, path, stored_as(scene, orientation), attributes);
-      Bytes bytes = slurp(path);
-      if (std::string(format) == "png" || std::string(format) == "webp") continue;  // metadata_test.cpp: handmade chunks
       const Photo photo = load_photo(path);
       EXPECT_EQ(photo.exif_orientation, orientation) << format;
       // JPEG: two codes at the brightest level, where a code is worth 0.9 % of light. TIFF keeps every bit.
@@ -89,7 +91,7 @@ TEST(PhotoTest, FlagsAreTurnedWithThePicture) {
 TEST(PhotoTest, LosslessFormatsKeepEveryCode) {
   TempFolder folder;
   const ByteImage image = gradient(37, 101, 3);
-  for (const char* format : {"png", "tiff", "webp"}) {
+  for (const char* format : {"png", "tiff"}) {
     write_bytes(format, folder / "x", image);
     const Photo photo = load_photo(folder / "x");
     EXPECT_EQ(photo.format, format);
@@ -238,13 +240,36 @@ TEST(PhotoTest, CarriesTheChecksumOfTheFile) {
   EXPECT_EQ(load_photo(folder / "x.png").sha256, sha256_hex(bytes.data(), bytes.size()));
 }
 
+// The middle of each quadrant, away from the edges that halved chroma smears.
+void expect_quadrants(const Photo& photo, float tolerance) {
+  const Image expected = decode_srgb(quadrants());
+  ASSERT_TRUE(photo.linear.same_size(expected));
+  for (const auto& [x, y] : {std::pair{8, 12}, {24, 12}, {8, 36}, {24, 36}}) {
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(photo.linear(x, y, c), expected(x, y, c), tolerance);
+  }
+}
+
+TEST(PhotoTest, Webp) {
+  TempFolder folder;
+  write_bytes("webp", folder / "x", quadrants());
+  const Photo photo = load_photo(folder / "x");
+  EXPECT_EQ(photo.format, "webp");
+  // OpenImageIO's writer goes through 8-bit limited-range YUV: one step of 1/219 in each of three planes, 2 codes here,
+  // where a code is worth up to 0.007 of light.
+  expect_quadrants(photo, 0.02F);
+}
+
 TEST(PhotoTest, HeicIsReadWhereItCanBeWritten) {
   TempFolder folder;
   const ByteImage scene = quadrants();
   const fs::path path = folder / "x.heic";
   const std::unique_ptr<OIIO::ImageOutput> writer = OIIO::ImageOutput::create("heif");
-  const OIIO::ImageSpec spec(32, 48, 3, OIIO::TypeDesc::UINT8);
-  if (!writer || !writer->open(path.string(), spec) || !writer->write_image(OIIO::TypeDesc::UINT8, scene.data()) ||
+  OIIO::ImageSpec spec(32, 48, 3, OIIO::TypeDesc::UINT8);
+  spec.attribute("Orientation", 6);  // in the EXIF block only, where HEIF says it has no effect
+  // OpenImageIO 2.4's writer reads a row more than it is given.
+  std::vector<std::uint8_t> padded(scene.values().begin(), scene.values().end());
+  padded.resize(padded.size() + 2 * 32 * 3);
+  if (!writer || !writer->open(path.string(), spec) || !writer->write_image(OIIO::TypeDesc::UINT8, padded.data()) ||
       !writer->close()) {
     if (writer) writer->geterror();
     OIIO::geterror();
@@ -252,12 +277,7 @@ TEST(PhotoTest, HeicIsReadWhereItCanBeWritten) {
   }
   const Photo photo = load_photo(path);
   EXPECT_EQ(photo.format, "heif");
-  const Image expected = decode_srgb(scene);
-  ASSERT_TRUE(photo.linear.same_size(expected));
-  // The middle of a quadrant: HEVC's default quality and halved chroma stay within 5 % of full light there.
-  for (const auto& [x, y] : {std::pair{8, 12}, {24, 12}, {8, 36}, {24, 36}}) {
-    for (int c = 0; c < 3; ++c) EXPECT_NEAR(photo.linear(x, y, c), expected(x, y, c), 0.05F);
-  }
+  expect_quadrants(photo, 0.05F);  // HEVC at the writer's default quality
 }
 
 }  // namespace

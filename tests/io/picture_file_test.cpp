@@ -96,7 +96,8 @@ TEST(PictureFile, EnvMapRoundTripInEveryOrientation) {
     for (const Orientation o : {Orientation::kOpenExr, Orientation::kThree, Orientation::kDebevec}) {
       write_env_map(folder / name, map, o);
       // Values are exact in half; RGBE rounds 0.5 beside 20 down by up to 20/256.
-      expect_relative(read_env_map(folder / name, o).radiance(), map.radiance(), std::string(name) == "x.exr" ? 0.0F : 0.16F);
+      expect_relative(read_env_map(folder / name, o).radiance(), map.radiance(),
+                      std::string(name) == "x.exr" ? 0.0F : 0.16F);
       // Read without rolling back, the lamp stands W/4 per quarter further right.
       const int column = (16 + 16 * static_cast<int>(o)) % 64;
       EXPECT_NEAR(read_linear_picture(folder / name)(column, 16, 0), 20.0F, 0.2F);

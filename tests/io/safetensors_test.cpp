@@ -85,7 +85,8 @@ TEST_F(Safetensors, DuplicateKeys) {
                          R"("a":{"dtype":"F32","shape":[1],"data_offsets":[4,8]}})",
                          floats({1, 2})),
                  "'a' twice");
-  expect_refused(file_of(R"({"a":{"dtype":"F32","shape":[1],"shape":[2],"data_offsets":[0,4]}})", floats({1})), "twice");
+  expect_refused(file_of(R"({"a":{"dtype":"F32","shape":[1],"shape":[2],"data_offsets":[0,4]}})", floats({1})),
+                 "twice");
 }
 
 TEST_F(Safetensors, OffsetsMustCoverTheDataExactly) {
@@ -109,7 +110,8 @@ TEST_F(Safetensors, OffsetsMustCoverTheDataExactly) {
 
 TEST_F(Safetensors, ShapesAndKinds) {
   const auto one = [](const std::string& shape, const std::string& dtype = "F32") {
-    return file_of(R"({"a":{"dtype":")" + dtype + R"(","shape":)" + shape + R"(,"data_offsets":[0,8]}})", floats({1, 2}));
+    return file_of(R"({"a":{"dtype":")" + dtype + R"(","shape":)" + shape + R"(,"data_offsets":[0,8]}})",
+                   floats({1, 2}));
   };
   EXPECT_NO_THROW(read(one("[2]")));
   expect_refused(one("[3]"), "do not fit");

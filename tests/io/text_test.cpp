@@ -32,9 +32,9 @@ TEST(Text, StandsOnItsBaseline) {
   const Ink ink = ink_of(picture);
   EXPECT_GT(ink.count, 100);
   EXPECT_GE(ink.left, 20);
-  EXPECT_LE(ink.left, 24);      // the letter's own margin
+  EXPECT_LE(ink.left, 24);  // the letter's own margin
   EXPECT_LE(ink.bottom, 40);
-  EXPECT_GE(ink.bottom, 38);    // capitals end on the baseline
+  EXPECT_GE(ink.bottom, 38);  // capitals end on the baseline
   // DejaVu's capitals are 0.729 em high: 17.5 px, and hinting moves an edge by at most a pixel.
   EXPECT_NEAR(ink.bottom - ink.top + 1, 17.5, 1.6);
   EXPECT_EQ(picture(ink.left, ink.bottom - 3, 2), 0);  // yellow has no blue

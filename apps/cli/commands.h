@@ -1,0 +1,19 @@
+#pragma once
+// The verbs of the command. Each adds its subcommand to the program; running it returns the exit code.
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace faceprobe::cli {
+
+// What the program runs after parsing; set by the subcommand that was named.
+using Action = std::function<int()>;
+
+void add_estimate(CLI::App& program, Action& action);
+void add_separate(CLI::App& program, Action& action);
+void add_info(CLI::App& program, Action& action);
+
+// Runs the action; every Error becomes its sentence on stderr and its exit code.
+int run_guarded(const Action& action);
+
+}  // namespace faceprobe::cli

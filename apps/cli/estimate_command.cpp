@@ -1,0 +1,120 @@
+#include "commands.h"
+#include "faceprobe/core/error.h"
+#include "faceprobe/io/picture_file.h"
+#include "faceprobe/io/photo.h"
+#include "faceprobe/pipeline/outputs.h"
+#include "faceprobe/pipeline/report.h"
+#include "shared_options.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+namespace faceprobe::cli {
+
+namespace {
+
+struct Options : SharedOptions {
+  std::string output = "faceprobe-out";
+  std::string orientation = "openexr";
+  bool json = false;
+  bool timings = false;
+};
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+Orientation orientation_from_name(const std::string& name) {
+  if (name == "openexr") return Orientation::kOpenExr;
+  if (name == "three" || name == "blender") return Orientation::kThree;
+  if (name == "debevec") return Orientation::kDebevec;
+  throw Error(ExitCode::kUsage, "--orient takes openexr, three, blender or debevec, found '" + name + "'.");
+}
+
+bool is_map_file(const std::string& output) {
+  std::string extension = std::filesystem::path(output).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  return extension == ".exr" || extension == ".hdr" || extension == ".png";
+}
+
+void print_timings(double start_s, double load_s, const pipeline::Estimate& estimate, double write_s) {
+  std::fprintf(stderr, "%-24s %8s\n", "stage", "ms");
+  double total = start_s + load_s + write_s;
+  std::fprintf(stderr, "%-24s %8.1f\n", "load models", 1e3 * start_s);
+  std::fprintf(stderr, "%-24s %8.1f\n", "read photo", 1e3 * load_s);
+  for (const pipeline::StageTime& stage : estimate.timings) {
+    std::fprintf(stderr, "%-24s %8.1f\n", stage.stage.c_str(), 1e3 * stage.seconds);
+    total += stage.seconds;
+  }
+  std::fprintf(stderr, "%-24s %8.1f\n", "write files", 1e3 * write_s);
+  std::fprintf(stderr, "%-24s %8.1f\n", "total", 1e3 * total);
+}
+
+int run(const Options& options) {
+  const bool map_only = is_map_file(options.output);
+  if (map_only && options.inputs.size() > 1) {
+    throw Error(ExitCode::kUsage, "-o " + options.output + " names one map, but there are " +
+                                      std::to_string(options.inputs.size()) + " photos; name a folder.");
+  }
+  const pipeline::EstimateOptions wanted = estimate_options(options);
+  pipeline::OutputOptions output;
+  output.orientation = orientation_from_name(options.orientation);
+  Clock::time_point start = Clock::now();
+  const pipeline::Estimator estimator(wanted);
+  double models_s = seconds_since(start);
+  int code = 0;
+  for (std::size_t i = 0; i < options.inputs.size(); ++i) {
+    // One bad photo among several does not cost the others theirs; the last failure's code is returned.
+    const int one = run_guarded([&] {
+      start = Clock::now();
+      const io::Photo photo = io::load_photo(options.inputs[i], options.limits);
+      const double load_s = seconds_since(start);
+      const pipeline::Estimate estimate = estimator.estimate(photo);
+      for (const std::string& warning : estimate.warnings) spdlog::warn("{}: {}", options.inputs[i], warning);
+      start = Clock::now();
+      if (map_only) {
+        io::write_env_map(options.output, estimate.faces[estimate.largest].environment, output.orientation,
+                          pipeline::provenance(photo, estimator.options()));
+        spdlog::info("{}: {} face(s), wrote {}", options.inputs[i], estimate.faces.size(), options.output);
+      } else {
+        const std::string folder = folder_for(options.output, options, i);
+        const auto files = pipeline::write_outputs(folder, estimate, photo, estimator.options(), options.inputs[i], output);
+        spdlog::info("{}: {} face(s), wrote {} files to {}", options.inputs[i], estimate.faces.size(), files.size(), folder);
+      }
+      if (options.timings) print_timings(models_s, load_s, estimate, seconds_since(start));
+      models_s = 0;
+      if (options.json) {
+        std::fputs(pipeline::report_json(estimate, photo, estimator.options(), options.inputs[i]).c_str(), stdout);
+      }
+      return 0;
+    });
+    if (one != 0) code = options.inputs.size() > 1 ? static_cast<int>(ExitCode::kBatchFailures) : one;
+  }
+  return code;
+}
+
+}  // namespace
+
+void add_estimate(CLI::App& program, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand("estimate", "the light on the faces of a photo, as maps, layers and lights");
+  add_inputs(*command, *options);
+  command->add_option("-o,--output", options->output, "folder for everything, or NAME.exr/.hdr/.png for the largest face's map alone")
+      ->capture_default_str();
+  command->add_flag("--json", options->json, "print the report on stdout");
+  command->add_flag("--timings", options->timings, "print a table of stage times on stderr");
+  command->add_option("--orient", options->orientation, "column convention of the maps: openexr, three, blender, debevec")
+      ->capture_default_str();
+  add_face_options(*command, *options);
+  add_solver_options(*command, *options);
+  command->footer("Examples:\n  faceprobe estimate portrait.jpg -o out\n  faceprobe estimate portrait.jpg -o light.exr --orient blender\n"
+                  "  faceprobe estimate a.jpg b.jpg -o out --json > reports.json");
+  command->callback([options, &action] { action = [options] { return run(*options); }; });
+}
+
+}  // namespace faceprobe::cli

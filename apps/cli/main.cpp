@@ -1,0 +1,39 @@
+// faceprobe: turns the faces of a photo into the light that fell on them.
+
+#include "commands.h"
+#include "faceprobe/core/error.h"
+#include "faceprobe/core/version.h"
+
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <csignal>
+#include <string>
+
+int main(int argc, char** argv) {
+  using namespace faceprobe;
+  std::signal(SIGPIPE, SIG_DFL);  // `faceprobe ... | head` ends quietly
+  spdlog::set_default_logger(spdlog::stderr_color_st("faceprobe"));
+  spdlog::set_pattern("%^%l%$: %v");
+
+  CLI::App program("Faceprobe turns the faces of an ordinary photo into the light that fell on them.", "faceprobe");
+  program.set_version_flag("--version", std::string(kVersion));
+  program.require_subcommand(1);
+  bool quiet = false;
+  program.add_flag("-q,--quiet", quiet, "errors only on stderr");
+  program.fallthrough();
+  program.footer("Exit codes: 0 ok, 1 unexpected, 2 usage, 3 input unreadable or over a limit, 4 no usable face, 5 model missing or\n"
+                 "invalid, 6 output not written, 7 device unavailable, 8 some of several photos failed.");
+  cli::Action action;
+  cli::add_estimate(program, action);
+  cli::add_separate(program, action);
+  cli::add_info(program, action);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    // CLI11 numbers its errors from 100; help and version are no errors.
+    return program.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::kUsage);
+  }
+  if (quiet) spdlog::set_level(spdlog::level::err);
+  return cli::run_guarded(action);
+}

@@ -1,0 +1,124 @@
+#include "shared_options.h"
+
+#include "faceprobe/core/error.h"
+
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+namespace faceprobe::cli {
+
+namespace {
+
+int whole_number(const std::string& text, const std::string& what) {
+  int value = 0;
+  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (fault != std::errc() || end != text.data() + text.size() || text.empty()) {
+    throw Error(ExitCode::kUsage, what + " must be a whole number, found '" + text + "'.");
+  }
+  return value;
+}
+
+}  // namespace
+
+void add_inputs(CLI::App& command, SharedOptions& options) {
+  command.add_option("PHOTO", options.inputs, "photos: JPEG, PNG, TIFF, WebP, HEIC, EXR, HDR")->required();
+  command.add_option("--max-pixels", options.limits.max_pixels, "largest photo accepted, in pixels")->capture_default_str();
+  command.add_option("--max-bytes", options.limits.max_file_bytes, "largest file accepted, in bytes")->capture_default_str();
+  command.add_option("--threads", options.threads, "threads; 0 = all")->capture_default_str()->check(CLI::Range(0, 1024));
+}
+
+void add_face_options(CLI::App& command, SharedOptions& options) {
+  command.add_option("--separator", options.separator, "highlight separator: tan, yang, shen")->capture_default_str();
+  command.add_option("--landmarks", options.landmarks,
+                     "x1,y1,... in pixels instead of detection: 5 points (eyes left to right, nose tip, mouth corners) or 68");
+  command.add_option("--focal-px", options.focal_px, "focal length in pixels; default from EXIF, else a 50 mm lens");
+  command.add_flag("--deterministic", options.deterministic, "bitwise the same result for any number of threads");
+  command.add_option("--device", options.device, "auto, cpu or cuda[:N]")->capture_default_str();
+}
+
+void add_solver_options(CLI::App& command, SharedOptions& options) {
+  command.add_option("--solver", options.solver, "transport, or paper (the published scheme)")->capture_default_str();
+  command.add_option("--geometry", options.geometry, "where normals come from: mesh")->capture_default_str();
+  command.add_option("--iterations", options.iterations, "Richardson-Lucy iterations")->capture_default_str();
+  command.add_option("--size", options.size, "width of the environment map, or WIDTHxHEIGHT with WIDTH = 2 HEIGHT")
+      ->capture_default_str();
+  command.add_option("--layer-px", options.layer_px, "long side of the layer pictures")->capture_default_str();
+}
+
+Eigen::MatrixX2f parse_landmarks(const std::string& text) {
+  std::vector<float> values;
+  std::stringstream words(text);
+  std::string word;
+  while (std::getline(words, word, ',')) {
+    try {
+      std::size_t used = 0;
+      values.push_back(std::stof(word, &used));
+      if (used != word.size() || !std::isfinite(values.back())) throw std::invalid_argument(word);
+    } catch (const std::exception&) {
+      throw Error(ExitCode::kUsage, "--landmarks takes numbers separated by commas, found '" + word + "'.");
+    }
+  }
+  if (values.size() != 10 && values.size() != 136) {
+    throw Error(ExitCode::kUsage, "--landmarks takes 5 or 68 points, that is 10 or 136 numbers; found " +
+                                      std::to_string(values.size()) + ".");
+  }
+  Eigen::MatrixX2f points(static_cast<Eigen::Index>(values.size() / 2), 2);
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    points(i, 0) = values[static_cast<std::size_t>(2 * i)];
+    points(i, 1) = values[static_cast<std::size_t>(2 * i + 1)];
+  }
+  return points;
+}
+
+int parse_map_width(const std::string& text) {
+  const std::size_t cross = text.find('x');
+  const int width = whole_number(text.substr(0, cross), "--size");
+  if (cross != std::string::npos && 2 * whole_number(text.substr(cross + 1), "--size") != width) {
+    throw Error(ExitCode::kUsage, "--size " + text + ": an environment map is twice as wide as high.");
+  }
+  return width;
+}
+
+pipeline::EstimateOptions estimate_options(const SharedOptions& options) {
+  if (options.device.rfind("cuda", 0) == 0) {
+    throw Error(ExitCode::kDevice, "--device " + options.device +
+                                       " is not there: this version computes on the processor only. Use --device auto or cpu.");
+  }
+  if (options.device != "auto" && options.device != "cpu") {
+    throw Error(ExitCode::kUsage, "--device takes auto, cpu or cuda[:N], found '" + options.device + "'.");
+  }
+  if (options.geometry != "mesh") {
+    throw Error(ExitCode::kUsage, "--geometry takes mesh, found '" + options.geometry + "'.");
+  }
+  if (const std::string fault = options.limits.validate(); !fault.empty()) throw Error(ExitCode::kUsage, fault);
+  pipeline::EstimateOptions out;
+  out.separator = highlight::separator_from_name(options.separator);
+  out.solve.solver = lighting::solver_from_name(options.solver);
+  out.solve.iterations = options.iterations;
+  out.map_width = parse_map_width(options.size);
+  out.layer_px = options.layer_px;
+  out.threads = options.threads;
+  out.deterministic = options.deterministic;
+  if (options.focal_px != 0) out.focal_px = options.focal_px;
+  if (!options.landmarks.empty()) out.landmarks_px = parse_landmarks(options.landmarks);
+  if (const std::string fault = out.validate(); !fault.empty()) throw Error(ExitCode::kUsage, fault);
+  return out;
+}
+
+std::string folder_for(const std::string& output, const SharedOptions& options, std::size_t input) {
+  if (options.inputs.size() == 1) return output;
+  // Two photos of one name get the input's number behind it.
+  const std::filesystem::path path(options.inputs[input]);
+  std::string name = path.stem().string();
+  for (std::size_t other = 0; other < options.inputs.size(); ++other) {
+    if (other != input && std::filesystem::path(options.inputs[other]).stem() == path.stem()) {
+      name += "_" + std::to_string(input + 1);
+      break;
+    }
+  }
+  return (std::filesystem::path(output) / name).string();
+}
+
+}  // namespace faceprobe::cli

@@ -1,0 +1,10 @@
+#pragma once
+// The version of this library; CMake reads it from here.
+
+#include <string_view>
+
+namespace faceprobe {
+
+inline constexpr std::string_view kVersion = "0.1.0";
+
+}  // namespace faceprobe

@@ -1,0 +1,117 @@
+#pragma once
+// From a photo to the light in it: the whole way, in one call.
+//
+//   #include <faceprobe/pipeline/estimate.h>
+//   #include <faceprobe/io/picture_file.h>
+//
+//   int main() {
+//     using namespace faceprobe;
+//     pipeline::Estimator estimator;                                     // loads the models once
+//     const io::Photo photo = io::load_photo("portrait.jpg");
+//     const pipeline::Estimate estimate = estimator.estimate(photo);     // throws Error(kNoFace) when there is none
+//     const pipeline::FaceEstimate& face = estimate.faces[estimate.largest];
+//     io::write_env_map("light.exr", face.environment);
+//     for (const lighting::MainLight& light : face.lights) { /* light.direction, light.colour, light.share */ }
+//   }
+//
+// One Estimator serves one thread at a time; make several for several threads.
+
+#include "faceprobe/core/env_map.h"
+#include "faceprobe/face/face.h"
+#include "faceprobe/face/geometry.h"
+#include "faceprobe/highlight/separate.h"
+#include "faceprobe/io/photo.h"
+#include "faceprobe/lighting/estimate.h"
+#include "faceprobe/lighting/main_lights.h"
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace faceprobe::pipeline {
+
+struct EstimateOptions {
+  face::FinderOptions finder;
+  highlight::Separator separator = highlight::Separator::kShen;
+  lighting::SolveOptions solve;
+  lighting::MainLightOptions main_lights;
+  // Focal length in pixels of the photo; unset = from EXIF, else a 50 mm lens on a 36 x 24 mm frame (a common portrait view).
+  std::optional<double> focal_px;
+  // Five or 68 landmarks (#points x 2, px) of one face, instead of detection; see face::FaceFinder::from_landmarks.
+  std::optional<Eigen::MatrixX2f> landmarks_px;
+  int layer_px = 512;           // long side of the crop that layers and geometry are made at; never enlarged
+  int max_patches = 1500;       // observations per face
+  int map_width = 256;          // of the environment maps; the height is half
+  int sh_order = 2;             // of the coefficients reported
+  int threads = 0;              // 0 = all; handed to every stage
+  bool deterministic = false;   // bitwise the same result for any number of threads
+
+  // Empty when usable, else a sentence that says which value is wrong.
+  std::string validate() const;
+};
+
+// What one light estimate amounts to, in every form people use.
+struct LightResult {
+  lighting::Light light;                      // per cell of SphereGrid(options.solve.nside)
+  EnvMap environment;                         // the same as a lat-long map
+  EnvMap confidence;                          // 0..1 in all three channels
+  Eigen::MatrixX3d sh;                        // (order + 1)^2 x 3 radiance coefficients, see core/sh.h
+  std::vector<lighting::MainLight> lights;    // by falling strength
+};
+
+struct FaceEstimate : LightResult {
+  face::Face face;
+  face::FaceGeometry geometry;       // crop
+  Image picture;                     // the photo in the crop, linear
+  ByteImage clipped;                 // io::Photo flags in the crop
+  highlight::Layers layers;          // crop, skin only
+  Image albedo;                      // crop, linear
+  Image shading;                     // crop: diffuse / albedo, i.e. irradiance / pi; 0 off the skin
+  Eigen::Vector3f light_colour;      // mean light by the skin and white-balance priors, green = 1
+  lighting::Observations observations;
+};
+
+struct StageTime {
+  std::string stage;
+  double seconds = 0;
+};
+
+enum class FocalSource { kGiven, kExif, kDefault };
+
+struct Estimate {
+  int photo_width = 0;
+  int photo_height = 0;
+  face::Camera camera;
+  FocalSource focal_source = FocalSource::kDefault;
+  std::vector<FaceEstimate> faces;   // left to right; never empty
+  std::size_t largest = 0;           // index of the face with the largest box
+  std::optional<LightResult> joint;  // from two faces on: one distant light for all of them
+  std::vector<StageTime> timings;    // in order
+  std::vector<std::string> warnings; // sentences
+};
+
+class Estimator {
+ public:
+  // Throws Error(kUsage) when the options do not validate, Error(kModel) when a model file is missing.
+  explicit Estimator(EstimateOptions options = {});
+  ~Estimator();
+  Estimator(Estimator&&) noexcept;
+  Estimator& operator=(Estimator&&) noexcept;
+
+  const EstimateOptions& options() const;
+  // Throws Error(kNoFace) when no usable face is found.
+  Estimate estimate(const io::Photo& photo) const;
+  // The faces alone, left to right; empty when there are none.
+  std::vector<face::Face> find_faces(const io::Photo& photo) const;
+  // The two layers at the photo's own size: highlight is 0 outside the faces' skin, diffuse is the photo there.
+  // Throws Error(kNoFace).
+  highlight::Layers separate(const io::Photo& photo) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace faceprobe::pipeline

@@ -1,0 +1,30 @@
+#pragma once
+// The folder that `faceprobe estimate` leaves. One face: all files in the folder itself. Several: face_1 .. face_N from left to right
+// with the same files, and joint/ with the map of all of them; the largest face's map is also at the top.
+//
+//   environment.exr .hdr .png   confidence.exr   highlight|diffuse|albedo|shading|normals .exr .png   regions.png
+//   overview.png   report.json (top folder only)
+
+#include "faceprobe/pipeline/estimate.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace faceprobe::pipeline {
+
+struct OutputOptions {
+  Orientation orientation = Orientation::kOpenExr;  // of the environment maps
+  bool layers = true;
+  bool overview = true;
+};
+
+// Attributes that every file carries: program, version, solver, separator, hash of the photo.
+std::map<std::string, std::string> provenance(const io::Photo& photo, const EstimateOptions& options);
+
+// Writes everything and returns the files, in order. Throws Error(kOutput). `source` is what the user called the photo.
+std::vector<std::filesystem::path> write_outputs(const std::filesystem::path& folder, const Estimate& estimate,
+                                                 const io::Photo& photo, const EstimateOptions& options,
+                                                 const std::string& source, const OutputOptions& output = {});
+
+}  // namespace faceprobe::pipeline

@@ -1,0 +1,13 @@
+#pragma once
+// One picture to look at: the photo with the face's mesh, the layers, the environment map with its main lights, the confidence, and
+// a diffuse, a matte and a mirror ball under the estimated light, captioned.
+
+#include "faceprobe/core/image.h"
+#include "faceprobe/pipeline/estimate.h"
+
+namespace faceprobe::pipeline {
+
+// 1600 px wide sRGB picture of one face's estimate. `face` is an index into estimate.faces.
+ByteImage draw_overview(const Estimate& estimate, const io::Photo& photo, std::size_t face, int threads = 0);
+
+}  // namespace faceprobe::pipeline

@@ -1,0 +1,24 @@
+#pragma once
+// What an Estimator holds: the options, the networks and the mesh.
+
+#include "faceprobe/core/error.h"
+#include "faceprobe/pipeline/estimate.h"
+
+namespace faceprobe::pipeline {
+
+class Stopwatch;
+
+struct Estimator::Impl {
+  explicit Impl(EstimateOptions wanted);
+  std::vector<face::Face> faces_of(const io::Photo& photo, const face::Camera& camera) const;
+  FaceEstimate analyse(const io::Photo& photo, const face::Camera& camera, face::Face found, Stopwatch& watch) const;
+
+  EstimateOptions options;
+  face::FaceFinder finder;
+  face::CanonicalMesh mesh;
+};
+
+// The sentence for a photo without a face.
+Error no_face(const io::Photo& photo, const EstimateOptions& options);
+
+}  // namespace faceprobe::pipeline

@@ -1,0 +1,131 @@
+#include "pipeline/observe.h"
+
+#include "faceprobe/io/photo.h"
+#include "faceprobe/lighting/horizon.h"
+#include "faceprobe/lighting/skin.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace faceprobe::pipeline {
+
+namespace {
+
+using face::Region;
+
+constexpr float kLeastCosine = 0.15F;  // N.V below which a millimetre of mesh error moves the normal out of sight
+
+// How far the face mesh's normals can be believed: the square of the cheeks' error over the region's, from a comparison with a head
+// scan (cheeks 5.5 degrees, forehead 15, nose 21, eyes 21, mouth 24), softened so that no region is silenced.
+float geometry_trust(Region region) {
+  switch (region) {
+    case Region::kCheeks:
+      return 1.0F;
+    case Region::kForehead:
+    case Region::kChin:
+    case Region::kJaw:
+      return 0.6F;
+    case Region::kNose:
+    case Region::kUpperLip:
+      return 0.4F;
+    default:
+      return 0.25F;
+  }
+}
+
+float smooth_step(float low, float high, float value) {
+  const float t = std::clamp((value - low) / (high - low), 0.0F, 1.0F);
+  return t * t * (3.0F - 2.0F * t);
+}
+
+bool usable(const face::FaceGeometry& geometry, const ByteImage& flags, int x, int y) {
+  const auto region = static_cast<Region>(geometry.region(x, y));
+  if (!face::is_probe_skin(region) || (flags(x, y) & io::kTransparent) != 0) return false;
+  const Eigen::Map<const Eigen::Vector3f> normal(geometry.normal_cam.pixel(x, y));
+  const Eigen::Map<const Eigen::Vector3f> view(geometry.view_cam.pixel(x, y));
+  return normal.dot(view) > kLeastCosine;
+}
+
+struct Patch {
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero();
+  Eigen::Vector3f view = Eigen::Vector3f::Zero();
+  Eigen::Vector3f highlight = Eigen::Vector3f::Zero();
+  Eigen::Vector3f shading = Eigen::Vector3f::Zero();
+  Eigen::Array3f clipped = Eigen::Array3f::Zero();
+  float roughness = 0;
+  float specular_albedo = 0;
+  float trust = 0;
+  float pixels = 0;
+  float x = 0;
+  float y = 0;
+};
+
+}  // namespace
+
+ByteImage skin_regions(const face::FaceGeometry& geometry) {
+  ByteImage skin(geometry.region.width(), geometry.region.height(), 1);
+  std::transform(geometry.region.values().begin(), geometry.region.values().end(), skin.values().begin(), [](std::uint8_t r) {
+    // face::Region counts the ten skin regions from 1 in the same order as lighting::SkinRegion from 0.
+    return r <= lighting::kSkinRegionCount ? r : std::uint8_t{0};
+  });
+  return skin;
+}
+
+lighting::Observations observe(const face::FaceGeometry& geometry, const Image& highlight, const Image& shading,
+                               const ByteImage& flags, int max_patches, int threads) {
+  const int width = geometry.region.width();
+  const int height = geometry.region.height();
+  int skin = 0;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) skin += usable(geometry, flags, x, y) ? 1 : 0;
+  }
+  const int side = std::max(1, static_cast<int>(std::ceil(std::sqrt(static_cast<double>(skin) / max_patches))));
+  const int columns = (width + side - 1) / side;
+  const int rows = (height + side - 1) / side;
+  std::vector<Patch> grid(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      if (!usable(geometry, flags, x, y)) continue;
+      Patch& patch = grid[static_cast<std::size_t>(y / side) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x / side)];
+      const auto region = static_cast<Region>(geometry.region(x, y));
+      const lighting::SkinReflectance skin_here =
+          lighting::skin_reflectance(static_cast<lighting::SkinRegion>(geometry.region(x, y) - 1));
+      patch.normal += Eigen::Map<const Eigen::Vector3f>(geometry.normal_cam.pixel(x, y));
+      patch.view += Eigen::Map<const Eigen::Vector3f>(geometry.view_cam.pixel(x, y));
+      patch.highlight += Eigen::Map<const Eigen::Vector3f>(highlight.pixel(x, y));
+      patch.shading += Eigen::Map<const Eigen::Vector3f>(shading.pixel(x, y));
+      for (int c = 0; c < 3; ++c) patch.clipped[c] += (flags(x, y) >> c & 1) != 0 ? 1.0F : 0.0F;
+      patch.roughness += skin_here.roughness;
+      patch.specular_albedo += skin_here.specular_albedo;
+      patch.trust += geometry_trust(region);
+      patch.pixels += 1;
+      patch.x += static_cast<float>(x);
+      patch.y += static_cast<float>(y);
+    }
+  }
+  // A patch that is mostly border says more about its neighbours than about itself.
+  const float least = 0.3F * static_cast<float>(side * side);
+  std::erase_if(grid, [least](const Patch& p) { return p.pixels < std::max(1.0F, least); });
+
+  lighting::Observations o;
+  o.resize(static_cast<Eigen::Index>(grid.size()));
+  Eigen::MatrixX2i centres(o.count(), 2);
+  for (Eigen::Index i = 0; i < o.count(); ++i) {
+    const Patch& p = grid[static_cast<std::size_t>(i)];
+    o.normal.row(i) = p.normal.normalized().transpose();
+    o.view.row(i) = p.view.normalized().transpose();
+    o.highlight.row(i) = p.highlight.transpose() / p.pixels;
+    o.shading.row(i) = p.shading.transpose() / p.pixels;
+    o.clipped.row(i) = (p.clipped / p.pixels > 0.25F).transpose();
+    o.roughness[i] = p.roughness / p.pixels;
+    o.specular_albedo[i] = p.specular_albedo / p.pixels;
+    o.weight[i] = p.trust * std::max(1e-3F, smooth_step(kLeastCosine, 0.5F, o.normal.row(i).dot(o.view.row(i))));
+    centres(i, 0) = static_cast<int>(std::lround(p.x / p.pixels));
+    centres(i, 1) = static_cast<int>(std::lround(p.y / p.pixels));
+  }
+  if (o.count() > 0) o.horizon = lighting::horizon_tangents(geometry.position_cam_m, centres, threads);
+  return o;
+}
+
+}  // namespace faceprobe::pipeline

@@ -1,0 +1,17 @@
+#pragma once
+// The step from pictures to rows: averages the layers and the geometry of a face over small square patches of skin.
+
+#include "faceprobe/core/image.h"
+#include "faceprobe/face/geometry.h"
+#include "faceprobe/lighting/observations.h"
+
+namespace faceprobe::pipeline {
+
+// `highlight` and `shading`: crop x 3; `flags`: io::Photo bits in the crop. At most `max_patches` rows, horizons included.
+lighting::Observations observe(const face::FaceGeometry& geometry, const Image& highlight, const Image& shading,
+                               const ByteImage& flags, int max_patches, int threads);
+
+// 1 + lighting::SkinRegion where the geometry has skin, 0 elsewhere: crop x 1.
+ByteImage skin_regions(const face::FaceGeometry& geometry);
+
+}  // namespace faceprobe::pipeline

@@ -1,0 +1,127 @@
+#include "faceprobe/pipeline/report.h"
+
+#include "faceprobe/core/angles.h"
+#include "faceprobe/core/version.h"
+
+#include <nlohmann/json.hpp>
+
+namespace faceprobe::pipeline {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class Vector>
+Json array_of(const Vector& v) {
+  Json out = Json::array();
+  for (const auto value : v) out.push_back(value);
+  return out;
+}
+
+Json sh_json(const Eigen::MatrixX3d& sh) {
+  Json coefficients = Json::array();
+  for (Eigen::Index i = 0; i < sh.rows(); ++i) coefficients.push_back(array_of(Eigen::Vector3d(sh.row(i).transpose())));
+  return {{"basis", "real, orthonormal, no Condon-Shortley sign; polar axis +z of the camera frame"},
+          {"quantity", "radiance"},
+          {"order", "(0,0), (1,-1), (1,0), (1,1), (2,-2) .. (2,2), ..."},
+          {"rgb", coefficients}};
+}
+
+Json lights_json(const std::vector<lighting::MainLight>& lights) {
+  Json out = Json::array();
+  for (const lighting::MainLight& light : lights) {
+    out.push_back({{"direction", array_of(light.direction)},
+                   {"azimuth_deg", azimuth_deg(light.direction)},
+                   {"elevation_deg", elevation_deg(light.direction)},
+                   {"colour_rgb", array_of(light.colour)},
+                   {"irradiance", light.irradiance},
+                   {"peak_radiance", light.peak_radiance},
+                   {"solid_angle_sr", light.solid_angle_sr},
+                   {"share_of_energy", light.share}});
+  }
+  return out;
+}
+
+Json light_json(const LightResult& result) {
+  return {{"ambient_rgb", array_of(result.light.ambient)},
+          {"mean_confidence", result.light.confidence.size() > 0 ? result.light.confidence.mean() : 0.0F},
+          {"highlight_gain", result.light.highlight_gain},
+          {"highlight_leak", result.light.leak},
+          {"main_lights", lights_json(result.lights)},
+          {"spherical_harmonics", sh_json(result.sh)}};
+}
+
+std::string_view focal_source_name(FocalSource source) {
+  switch (source) {
+    case FocalSource::kGiven:
+      return "given";
+    case FocalSource::kExif:
+      return "exif";
+    default:
+      return "default (50 mm on a 36 x 24 mm frame)";
+  }
+}
+
+Json face_json(const FaceEstimate& face) {
+  // Photo coordinates keep y down, as pixels do; the pose is in the camera frame, y up.
+  const Eigen::Matrix3d rotation = face.face.camera_from_face.rotation();
+  const Eigen::Vector3d forward = rotation.col(2);
+  Json rows = Json::array();
+  for (int r = 0; r < 3; ++r) rows.push_back(array_of(Eigen::Vector3d(rotation.row(r).transpose())));
+  return {{"box_px", {{"x", face.face.box.x}, {"y", face.face.box.y}, {"width", face.face.box.width}, {"height", face.face.box.height}}},
+          {"score", face.face.score},
+          {"rough_landmarks", face.face.rough_landmarks},
+          {"position_m", array_of(face.face.position_m())},
+          {"camera_from_face_rotation", rows},
+          {"yaw_deg", azimuth_deg(forward)},
+          {"pitch_deg", elevation_deg(forward)},
+          {"reprojection_rms_px", face.face.reprojection_rms_px},
+          {"patches", face.observations.count()},
+          {"light_colour_rgb", array_of(face.light_colour)},
+          {"light", light_json(face)}};
+}
+
+}  // namespace
+
+std::string report_json(const Estimate& estimate, const io::Photo& photo, const EstimateOptions& options,
+                        const std::string& source) {
+  Json report;
+  report["schema"] = kReportSchema;
+  report["program"] = {{"name", "faceprobe"}, {"version", kVersion}};
+  report["frame"] = "camera: +x right in the photo, +y up, +z towards the viewer; directions from the face to the light";
+  report["photo"] = {{"source", source},
+                     {"sha256", photo.sha256},
+                     {"format", photo.format},
+                     {"colour_space", photo.colour_space},
+                     {"bits_per_channel", photo.bits_per_channel},
+                     {"grey", photo.grey},
+                     {"exif_orientation_applied", photo.exif_orientation},
+                     {"width_px", estimate.photo_width},
+                     {"height_px", estimate.photo_height}};
+  report["camera"] = {{"focal_px", estimate.camera.focal_px},
+                      {"focal_source", focal_source_name(estimate.focal_source)},
+                      {"centre_px", {estimate.camera.centre_x_px, estimate.camera.centre_y_px}}};
+  report["options"] = {{"separator", highlight::separator_name(options.separator)},
+                       {"solver", lighting::solver_name(options.solve.solver)},
+                       {"iterations", options.solve.iterations},
+                       {"nside", options.solve.nside},
+                       {"map_size_px", {options.map_width, options.map_width / 2}},
+                       {"layer_px", options.layer_px},
+                       {"deterministic", options.deterministic}};
+  report["largest_face"] = estimate.largest;
+  report["faces"] = Json::array();
+  for (const FaceEstimate& face : estimate.faces) report["faces"].push_back(face_json(face));
+  if (estimate.joint) report["joint_light"] = light_json(*estimate.joint);
+  Json timings = Json::array();
+  double total = 0;
+  for (const StageTime& stage : estimate.timings) {
+    timings.push_back({{"stage", stage.stage}, {"seconds", stage.seconds}});
+    total += stage.seconds;
+  }
+  report["timings"] = {{"stages", timings}, {"total_seconds", total}};
+  report["warnings"] = estimate.warnings;
+  // Names of files may be any bytes; what is not UTF-8 is replaced rather than thrown at the user.
+  return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace faceprobe::pipeline

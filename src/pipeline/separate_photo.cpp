@@ -1,0 +1,68 @@
+#include "pipeline/camera_of.h"
+#include "pipeline/estimator_impl.h"
+#include "pipeline/observe.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace faceprobe::pipeline {
+
+namespace {
+
+// The face's crop at the photo's own resolution, on whole pixels, so that layers go back without resampling.
+face::Crop full_crop(const face::Face& face, int width, int height) {
+  face::GeometryOptions options;
+  options.long_side_px = 1 << 20;
+  options.allow_enlarging = false;
+  const face::Crop wide = face::face_crop(face, width, height, options);
+  const int left = std::max(0, static_cast<int>(std::floor(wide.x_px)));
+  const int top = std::max(0, static_cast<int>(std::floor(wide.y_px)));
+  const int right = std::min(width, static_cast<int>(std::ceil(wide.x_px + wide.width / wide.scale)));
+  const int bottom = std::min(height, static_cast<int>(std::ceil(wide.y_px + wide.height / wide.scale)));
+  return {.x_px = static_cast<double>(left), .y_px = static_cast<double>(top), .scale = 1.0,
+          .width = std::max(0, right - left), .height = std::max(0, bottom - top)};
+}
+
+}  // namespace
+
+Error no_face(const io::Photo& photo, const EstimateOptions& options) {
+  return {ExitCode::kNoFace, "No face was found in this picture of " + std::to_string(photo.linear.width()) + " x " +
+                                 std::to_string(photo.linear.height()) + " px; faces are looked for from " +
+                                 std::to_string(options.finder.min_face_px) +
+                                 " px. If there is one, give its landmarks with --landmarks."};
+}
+
+highlight::Layers Estimator::separate(const io::Photo& photo) const {
+  const face::Camera camera = camera_of(photo, impl_->options).camera;
+  const std::vector<face::Face> faces = impl_->faces_of(photo, camera);
+  if (faces.empty()) throw no_face(photo, impl_->options);
+  highlight::Layers whole;
+  whole.highlight = Image(photo.linear.width(), photo.linear.height(), 3);
+  whole.diffuse = photo.linear;
+  highlight::SeparateOptions options;
+  options.separator = impl_->options.separator;
+  options.threads = impl_->options.threads;
+  for (const face::Face& face : faces) {
+    const face::Crop crop = full_crop(face, photo.linear.width(), photo.linear.height());
+    if (crop.width == 0 || crop.height == 0) continue;
+    const face::FaceGeometry geometry = face::rasterize(face, camera, impl_->mesh, crop);
+    const int left = static_cast<int>(crop.x_px);
+    const int top = static_cast<int>(crop.y_px);
+    Image picture(crop.width, crop.height, 3);
+    for (int y = 0; y < crop.height; ++y) {
+      std::copy_n(photo.linear.pixel(left, top + y), 3 * crop.width, picture.pixel(0, y));
+    }
+    const ByteImage skin = skin_regions(geometry);
+    const highlight::Layers layers = highlight::separate(picture, skin, options);
+    for (int y = 0; y < crop.height; ++y) {
+      for (int x = 0; x < crop.width; ++x) {
+        if (skin(x, y) == 0) continue;
+        std::copy_n(layers.highlight.pixel(x, y), 3, whole.highlight.pixel(left + x, top + y));
+        std::copy_n(layers.diffuse.pixel(x, y), 3, whole.diffuse.pixel(left + x, top + y));
+      }
+    }
+  }
+  return whole;
+}
+
+}  // namespace faceprobe::pipeline
