@@ -1,4 +1,5 @@
 #include "commands.h"
+#include "faceprobe/core/error.h"
 #include "faceprobe/io/atomic_file.h"
 #include "faceprobe/io/picture_file.h"
 #include "faceprobe/pipeline/outputs.h"

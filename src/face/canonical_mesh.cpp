@@ -22,7 +22,8 @@ struct Reader {
   int line_number = 0;
 
   [[noreturn]] void fail(const std::string& what) const {
-    throw Error(ExitCode::kModel, "The face mesh '" + path.string() + "' " + what + "; run scripts/setup.sh to fetch it again.");
+    throw Error(ExitCode::kModel,
+                "The face mesh '" + path.string() + "' " + what + "; run scripts/setup.sh to fetch it again.");
   }
 
   template <std::size_t N>
@@ -82,7 +83,8 @@ CanonicalMesh load_canonical_mesh(const std::filesystem::path& obj) {
       texture.push_back(reader.numbers<2>(line));
     } else if (keyword == "f") {
       triangles.push_back({reader.corner(line), reader.corner(line), reader.corner(line)});
-      if (std::string rest; line >> rest) reader.fail("has a face that is no triangle in line " + std::to_string(reader.line_number));
+      if (std::string rest; line >> rest)
+        reader.fail("has a face that is no triangle in line " + std::to_string(reader.line_number));
     }
     if (vertices.size() > kMeshVertices || texture.size() > kMeshVertices || triangles.size() > kTriangles) break;
   }
@@ -104,7 +106,8 @@ CanonicalMesh load_canonical_mesh(const std::filesystem::path& obj) {
       const auto [vertex, at] = triangles[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)];
       mesh.triangles(i, k) = vertex;
       // The file numbers texture vertices on their own; each vertex has exactly one.
-      mesh.uv.row(vertex) = Eigen::RowVector2f(texture[static_cast<std::size_t>(at)][0], texture[static_cast<std::size_t>(at)][1]);
+      mesh.uv.row(vertex) =
+          Eigen::RowVector2f(texture[static_cast<std::size_t>(at)][0], texture[static_cast<std::size_t>(at)][1]);
     }
     const auto triangle = mesh.triangles.row(i);
     if (triangle(0) == triangle(1) || triangle(1) == triangle(2) || triangle(2) == triangle(0)) {

@@ -10,8 +10,8 @@
 namespace faceprobe::face {
 namespace {
 
-// Which photo pixels, along one axis, make one crop pixel, and how much of it each: sums to 1 inside the photo, to less where
-// the crop pixel hangs over its edge.
+// Which photo pixels, along one axis, make one crop pixel, and how much of it each: sums to 1 inside the photo, to less
+// where the crop pixel hangs over its edge.
 struct Taps {
   int first = 0;
   std::vector<float> weights;
@@ -52,7 +52,8 @@ std::vector<Taps> axis_taps(double start_px, double scale, int crop_size, int ph
 void check(const Crop& crop) {
   if (!(crop.scale > 0) || crop.width < 0 || crop.height < 0) {
     throw Error(ExitCode::kUsage, "The crop has a scale of " + std::to_string(crop.scale) + " and a size of " +
-                                      std::to_string(crop.width) + " x " + std::to_string(crop.height) + " px; both must be positive.");
+                                      std::to_string(crop.width) + " x " + std::to_string(crop.height) +
+                                      " px; both must be positive.");
   }
 }
 

@@ -9,8 +9,8 @@ float intersection_over_union(const Detection& a, const Detection& b) {
   const auto shared = [](float ca, float sa, float cb, float sb) {
     return std::max(0.0F, std::min(ca + sa / 2, cb + sb / 2) - std::max(ca - sa / 2, cb - sb / 2));
   };
-  const float both = shared(a.centre.x(), a.width, b.centre.x(), b.width) *
-                     shared(a.centre.y(), a.height, b.centre.y(), b.height);
+  const float both =
+      shared(a.centre.x(), a.width, b.centre.x(), b.width) * shared(a.centre.y(), a.height, b.centre.y(), b.height);
   const float either = a.width * a.height + b.width * b.height - both;
   return either > 0 ? both / either : 0.0F;
 }

@@ -16,8 +16,8 @@ int input_size(DetectorKind kind) { return kind == DetectorKind::kShortRange ? 1
 void append_grid(std::vector<Eigen::Vector2f>& centres, int cells, int per_cell) {
   for (int y = 0; y < cells; ++y) {
     for (int x = 0; x < cells; ++x) {
-      const Eigen::Vector2f centre = (Eigen::Vector2f(static_cast<float>(x), static_cast<float>(y)).array() + 0.5F) /
-                                     static_cast<float>(cells);
+      const Eigen::Vector2f centre =
+          (Eigen::Vector2f(static_cast<float>(x), static_cast<float>(y)).array() + 0.5F) / static_cast<float>(cells);
       centres.insert(centres.end(), static_cast<std::size_t>(per_cell), centre);
     }
   }
@@ -37,8 +37,7 @@ std::vector<Eigen::Vector2f> anchor_centres(DetectorKind kind) {
 }
 
 Detector::Detector(DetectorKind kind, const std::filesystem::path& model)
-    : input_px_(input_size(kind)),
-      anchors_(anchor_centres(kind)),
+    : input_px_(input_size(kind)), anchors_(anchor_centres(kind)),
       model_(model, {1, input_size(kind), input_size(kind), 3}) {
   model_.output(anchors_.size());
   model_.output(anchors_.size() * kRegressorValues);

@@ -15,7 +15,8 @@ enum class DetectorKind {
   kFullRange,   // 192 px, slower; faces from about a sixteenth
 };
 
-// Centres of the network's anchors in [0, 1]^2, in the order of its outputs: 896 for the short range, 2304 for the full one.
+// Centres of the network's anchors in [0, 1]^2, in the order of its outputs: 896 for the short range, 2304 for the full
+// one.
 std::vector<Eigen::Vector2f> anchor_centres(DetectorKind kind);
 
 class Detector {

@@ -23,8 +23,9 @@ constexpr float kMergeOverlap = 0.3F;
 constexpr float kShortRangePadding = 1.5F;
 // Beside a large face, faces much smaller than it are not worth 30 more looks: they tell little of the light.
 constexpr float kCompanionFraction = 0.25F;
-// How far the network's landmarks may be from the given ones, as a part of the face's size: more when it is sure of the face.
-// Measured on tight crops under a single lamp: 0.11 at most, scores over 0.8; where there is no face, scores below 0.02.
+// How far the network's landmarks may be from the given ones, as a part of the face's size: more when it is sure of the
+// face. Measured on tight crops under a single lamp: 0.11 at most, scores over 0.8; where there is no face, scores
+// below 0.02.
 constexpr float kMaxDisagreement = 0.12F;
 constexpr float kMaxDisagreementWhenSure = 0.2F;
 constexpr float kMinScoreWithLandmarks = 0.05F;
@@ -55,7 +56,8 @@ void check(const Image& linear, const Camera& camera) {
                                       " channels; faces are looked for in linear pictures of 1 or 3 channels.");
   }
   if (!(camera.focal_px > 0) || !std::isfinite(camera.focal_px)) {
-    throw Error(ExitCode::kUsage, "The focal length is " + std::to_string(camera.focal_px) + " px; it must be positive.");
+    throw Error(ExitCode::kUsage,
+                "The focal length is " + std::to_string(camera.focal_px) + " px; it must be positive.");
   }
 }
 
@@ -63,17 +65,19 @@ void check(const Image& linear, const Camera& camera) {
 
 std::string FinderOptions::validate() const {
   const auto fraction = [](double value) { return value >= 0 && value <= 1; };
-  if (!fraction(min_detection_score) || !fraction(min_mesh_score)) return "The scores a face must reach lie between 0 and 1.";
-  if (min_face_px < 16) return "The smallest face is " + std::to_string(min_face_px) + " px wide; it must be at least 16 px.";
-  if (max_faces < 1) return "The number of faces to look for is " + std::to_string(max_faces) + "; it must be at least 1.";
+  if (!fraction(min_detection_score) || !fraction(min_mesh_score))
+    return "The scores a face must reach lie between 0 and 1.";
+  if (min_face_px < 16)
+    return "The smallest face is " + std::to_string(min_face_px) + " px wide; it must be at least 16 px.";
+  if (max_faces < 1)
+    return "The number of faces to look for is " + std::to_string(max_faces) + "; it must be at least 1.";
   if (threads < 0) return "The number of threads is " + std::to_string(threads) + "; it must be 0 (all) or more.";
   return {};
 }
 
 struct FaceFinder::Impl {
   explicit Impl(const FinderOptions& wanted)
-      : options(wanted),
-        mesh(load_canonical_mesh(io::data_file("canonical-face-model.obj"))),
+      : options(wanted), mesh(load_canonical_mesh(io::data_file("canonical-face-model.obj"))),
         short_range(DetectorKind::kShortRange, io::data_file("face_detection_short_range.tflite")),
         full_range(DetectorKind::kFullRange, io::data_file(kFullRangeFile)),
         network(io::data_file("face_landmark.tflite")) {}
@@ -86,12 +90,13 @@ struct FaceFinder::Impl {
     face.landmarks_px = landmarks_px;
     face.camera_from_face = fit_pose(landmarks_px, mesh, camera);
     face.vertices_cam_m = posed_mesh(landmarks_px, face.camera_from_face, mesh, camera);
-    face.reprojection_rms_px =
-        reprojection_rms_px(mesh.vertices_m.cast<double>(), landmarks_px.leftCols<2>().cast<double>(), camera, face.camera_from_face);
+    face.reprojection_rms_px = reprojection_rms_px(
+        mesh.vertices_m.cast<double>(), landmarks_px.leftCols<2>().cast<double>(), camera, face.camera_from_face);
     return face;
   }
 
-  // The detectors take a face that stands on its head for one that does not; the network is then less sure than it could be.
+  // The detectors take a face that stands on its head for one that does not; the network is then less sure than it
+  // could be.
   MeshReading read_upright(const Sampler& photo, SquareRegion square) {
     constexpr float kSure = 0.9999F;
     MeshReading reading = network.read_refined(photo, square);

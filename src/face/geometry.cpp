@@ -26,8 +26,10 @@ Crop face_crop(const Face& face, int photo_width, int photo_height, const Geomet
     const double high = std::clamp(std::ceil(start + (1 + margin) * size), -0.5 * photo, 1.5 * photo);
     return std::pair{low, std::max(high - low, 1.0)};
   };
-  const auto [x, width] = interval(static_cast<double>(face.box.x), static_cast<double>(face.box.width), options.margin, photo_width);
-  const auto [y, height] = interval(static_cast<double>(face.box.y), static_cast<double>(face.box.height), options.margin, photo_height);
+  const auto [x, width] =
+      interval(static_cast<double>(face.box.x), static_cast<double>(face.box.width), options.margin, photo_width);
+  const auto [y, height] =
+      interval(static_cast<double>(face.box.y), static_cast<double>(face.box.height), options.margin, photo_height);
 
   Crop crop;
   crop.x_px = x;
@@ -58,8 +60,8 @@ FaceGeometry rasterize(const Face& face, const Camera& camera, const CanonicalMe
       const Eigen::Vector2d photo = crop.photo_from_crop(x + 0.5, y + 0.5);
       Eigen::Map<Eigen::Vector3f>(geometry.view_cam.pixel(x, y)) =
           camera.view_direction(photo.x(), photo.y()).cast<float>();
-      const Fragment& fragment = fragments[static_cast<std::size_t>(y) * static_cast<std::size_t>(crop.width) +
-                                           static_cast<std::size_t>(x)];
+      const Fragment& fragment =
+          fragments[static_cast<std::size_t>(y) * static_cast<std::size_t>(crop.width) + static_cast<std::size_t>(x)];
       if (fragment.triangle < 0) continue;
       Eigen::Vector3f normal = Eigen::Vector3f::Zero();
       Eigen::Vector3f position = Eigen::Vector3f::Zero();

@@ -25,7 +25,8 @@ void check(const Eigen::MatrixX2f& given) {
     throw Error(ExitCode::kUsage, "Found " + std::to_string(given.rows()) +
                                       " landmarks; give 5 (eyes, nose tip, mouth corners) or 68 (iBUG order).");
   }
-  if (!given.allFinite()) throw Error(ExitCode::kUsage, "A given landmark is not a number; all must be pixels of the photo.");
+  if (!given.allFinite())
+    throw Error(ExitCode::kUsage, "A given landmark is not a number; all must be pixels of the photo.");
 }
 
 }  // namespace

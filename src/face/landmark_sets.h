@@ -21,16 +21,16 @@ inline constexpr std::array<int, 20> kOuterLipRing = {61,  146, 91,  181, 84,  1
 inline constexpr std::array<int, 20> kInnerLipRing = {78,  95,  88,  178, 87,  14, 317, 402, 318, 324,
                                                       308, 415, 310, 311, 312, 13, 82,  81,  80,  191};
 
-// Mesh vertices that stand for the 68 iBUG points, 17..67 (brows, nose, eyes, mouth). The jaw line, 0..16, is the outline of
-// the head in the picture and not a fixed set of surface points.
+// Mesh vertices that stand for the 68 iBUG points, 17..67 (brows, nose, eyes, mouth). The jaw line, 0..16, is the
+// outline of the head in the picture and not a fixed set of surface points.
 inline constexpr int kFirstFixedIbugPoint = 17;
-inline constexpr std::array<int, 51> kIbugVertices = {
-    70,  63,  105, 66,  107,                                   // right brow
-    336, 296, 334, 293, 300,                                   // left brow
-    168, 197, 5,   4,   75,  97,  2,   326, 305,               // nose
-    33,  160, 158, 133, 153, 144,                              // right eye
-    362, 385, 387, 263, 373, 380,                              // left eye
-    61,  39,  37,  0,   267, 269, 291, 405, 314, 17, 84, 181,  // outer lips
-    78,  81,  13,  311, 308, 402, 14,  178};                   // inner lips
+inline constexpr std::array<int, 51> kIbugVertices = {70,  63,  105, 66,  107,                      // right brow
+                                                      336, 296, 334, 293, 300,                      // left brow
+                                                      168, 197, 5,   4,   75,  97,  2,   326, 305,  // nose
+                                                      33,  160, 158, 133, 153, 144,                 // right eye
+                                                      362, 385, 387, 263, 373, 380,                 // left eye
+                                                      61,  39,  37,  0,   267, 269, 291, 405, 314,
+                                                      17,  84,  181,                            // outer lips
+                                                      78,  81,  13,  311, 308, 402, 14,  178};  // inner lips
 
 }  // namespace faceprobe::face

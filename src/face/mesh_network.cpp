@@ -13,8 +13,7 @@ constexpr int kInputPx = 192;
 
 }  // namespace
 
-MeshNetwork::MeshNetwork(const std::filesystem::path& model)
-    : model_(model, {1, kInputPx, kInputPx, 3}) {
+MeshNetwork::MeshNetwork(const std::filesystem::path& model) : model_(model, {1, kInputPx, kInputPx, 3}) {
   model_.output(3 * kMeshVertices);
   model_.output(1);
 }

@@ -1,6 +1,6 @@
 #pragma once
-// The dense mesh network (Kartynnik et al. 2019, Real-time facial surface geometry): 468 landmarks with relative depth from a
-// square crop, and whether there is a face in it at all.
+// The dense mesh network (Kartynnik et al. 2019, Real-time facial surface geometry): 468 landmarks with relative depth
+// from a square crop, and whether there is a face in it at all.
 
 #include "face/sampler.h"
 #include "face/tflite_model.h"
@@ -21,7 +21,8 @@ class MeshNetwork {
 
   // One look at a square.
   MeshReading read(const Sampler& photo, const SquareRegion& square);
-  // A look, then a second one centred by what the first saw: the crop the network was trained on is centred by landmarks.
+  // A look, then a second one centred by what the first saw: the crop the network was trained on is centred by
+  // landmarks.
   MeshReading read_refined(const Sampler& photo, const SquareRegion& square);
 
  private:

@@ -16,9 +16,11 @@ namespace {
 const Eigen::Vector3d kFlip(1, -1, -1);
 
 Eigen::Isometry3d to_isometry(const cv::Mat& rotation_vector, const cv::Mat& translation) {
-  const Eigen::Vector3d axis_angle(rotation_vector.at<double>(0), rotation_vector.at<double>(1), rotation_vector.at<double>(2));
+  const Eigen::Vector3d axis_angle(rotation_vector.at<double>(0), rotation_vector.at<double>(1),
+                                   rotation_vector.at<double>(2));
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  if (axis_angle.norm() > 0) pose.linear() = Eigen::AngleAxisd(axis_angle.norm(), axis_angle.normalized()).toRotationMatrix();
+  if (axis_angle.norm() > 0)
+    pose.linear() = Eigen::AngleAxisd(axis_angle.norm(), axis_angle.normalized()).toRotationMatrix();
   pose.translation() = Eigen::Vector3d(translation.at<double>(0), translation.at<double>(1), translation.at<double>(2));
   pose.linear() = kFlip.asDiagonal() * pose.linear();
   pose.translation() = kFlip.asDiagonal() * pose.translation();
@@ -26,8 +28,8 @@ Eigen::Isometry3d to_isometry(const cv::Mat& rotation_vector, const cv::Mat& tra
 }
 
 // A head that looks into the camera, as large and as tilted in the picture as the points are.
-void frontal_guess(const Eigen::MatrixX3d& face, const Eigen::MatrixX2d& px, const Camera& camera, cv::Mat& rotation_vector,
-                   cv::Mat& translation) {
+void frontal_guess(const Eigen::MatrixX3d& face, const Eigen::MatrixX2d& px, const Camera& camera,
+                   cv::Mat& rotation_vector, cv::Mat& translation) {
   const Eigen::RowVector3d face_mean = face.colwise().mean();
   const Eigen::RowVector2d px_mean = px.colwise().mean();
   double along = 0;
@@ -44,8 +46,8 @@ void frontal_guess(const Eigen::MatrixX3d& face, const Eigen::MatrixX2d& px, con
   const double roll = std::atan2(across, along);
   Eigen::Matrix3d rotation = Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitZ()).toRotationMatrix() * kFlip.asDiagonal();
   const double distance = camera.focal_px / px_per_m;
-  const Eigen::Vector3d centre((px_mean.x() - camera.centre_x_px) / px_per_m, (px_mean.y() - camera.centre_y_px) / px_per_m,
-                               distance);
+  const Eigen::Vector3d centre((px_mean.x() - camera.centre_x_px) / px_per_m,
+                               (px_mean.y() - camera.centre_y_px) / px_per_m, distance);
   const Eigen::Vector3d shift = centre - rotation * face_mean.transpose();
   const Eigen::AngleAxisd axis_angle(rotation);
   const Eigen::Vector3d vector = axis_angle.angle() * axis_angle.axis();
@@ -55,8 +57,8 @@ void frontal_guess(const Eigen::MatrixX3d& face, const Eigen::MatrixX2d& px, con
 
 }  // namespace
 
-double reprojection_rms_px(const Eigen::MatrixX3d& points_face_m, const Eigen::MatrixX2d& points_px, const Camera& camera,
-                           const Eigen::Isometry3d& camera_from_face) {
+double reprojection_rms_px(const Eigen::MatrixX3d& points_face_m, const Eigen::MatrixX2d& points_px,
+                           const Camera& camera, const Eigen::Isometry3d& camera_from_face) {
   double sum = 0;
   for (Eigen::Index i = 0; i < points_face_m.rows(); ++i) {
     const Eigen::Vector2d seen = camera.project(camera_from_face * points_face_m.row(i).transpose());
@@ -65,7 +67,8 @@ double reprojection_rms_px(const Eigen::MatrixX3d& points_face_m, const Eigen::M
   return std::sqrt(sum / static_cast<double>(points_face_m.rows()));
 }
 
-Eigen::Isometry3d fit_pose(const Eigen::MatrixX3d& points_face_m, const Eigen::MatrixX2d& points_px, const Camera& camera) {
+Eigen::Isometry3d fit_pose(const Eigen::MatrixX3d& points_face_m, const Eigen::MatrixX2d& points_px,
+                           const Camera& camera) {
   std::vector<cv::Point3d> face;
   std::vector<cv::Point2d> px;
   for (Eigen::Index i = 0; i < points_face_m.rows(); ++i) {
@@ -84,7 +87,8 @@ Eigen::Isometry3d fit_pose(const Eigen::MatrixX3d& points_face_m, const Eigen::M
     cv::Mat translation;
     try {
       if (closed_form) {
-        if (!cv::solvePnP(face, px, intrinsics, cv::noArray(), rotation_vector, translation, false, cv::SOLVEPNP_SQPNP)) continue;
+        if (!cv::solvePnP(face, px, intrinsics, cv::noArray(), rotation_vector, translation, false, cv::SOLVEPNP_SQPNP))
+          continue;
       } else {
         frontal_guess(points_face_m, points_px, camera, rotation_vector, translation);
       }
@@ -102,14 +106,15 @@ Eigen::Isometry3d fit_pose(const Eigen::MatrixX3d& points_face_m, const Eigen::M
     }
   }
   if (!std::isfinite(best_rms)) {
-    throw Error(ExitCode::kNoFace, "The landmarks fit no face in front of the camera; check their order and the focal length.");
+    throw Error(ExitCode::kNoFace,
+                "The landmarks fit no face in front of the camera; check their order and the focal length.");
   }
   return best;
 }
 
 std::vector<int> rigid_vertices(const CanonicalMesh& mesh) {
-  constexpr float kMouthTop = -0.022F;   // below: lips, chin and jaw move
-  constexpr float kEarSide = 0.070F;     // beyond: the outline, which the network draws where it sees an edge
+  constexpr float kMouthTop = -0.022F;  // below: lips, chin and jaw move
+  constexpr float kEarSide = 0.070F;    // beyond: the outline, which the network draws where it sees an edge
   std::vector<bool> moves(static_cast<std::size_t>(mesh.vertices_m.rows()), false);
   const auto mark = [&](const auto& ring) {
     for (const int right : ring) {
@@ -144,7 +149,8 @@ Eigen::Isometry3d fit_pose(const Eigen::MatrixX3f& landmarks_px, const Canonical
 
 Eigen::MatrixX3f posed_mesh(const Eigen::MatrixX3f& landmarks_px, const Eigen::Isometry3d& camera_from_face,
                             const CanonicalMesh& mesh, const Camera& camera) {
-  // The network sees the crop as if the camera looked straight at it: its depth runs along the ray to the face's centre.
+  // The network sees the crop as if the camera looked straight at it: its depth runs along the ray to the face's
+  // centre.
   const Eigen::Matrix3Xd rigid_cam = camera_from_face * mesh.vertices_m.cast<double>().transpose();
   const Eigen::Vector3d centre = rigid_cam.rowwise().mean();
   const Eigen::Vector3d axis = centre.normalized();
@@ -161,7 +167,8 @@ Eigen::MatrixX3f posed_mesh(const Eigen::MatrixX3f& landmarks_px, const Eigen::I
   Eigen::MatrixX3f vertices(landmarks_px.rows(), 3);
   for (Eigen::Index i = 0; i < landmarks_px.rows(); ++i) {
     const double depth = std::max(offset + m_per_px * static_cast<double>(landmarks_px(i, 2)), 0.3 * distance);
-    const Eigen::Vector3d ray = -camera.view_direction(static_cast<double>(landmarks_px(i, 0)), static_cast<double>(landmarks_px(i, 1)));
+    const Eigen::Vector3d ray =
+        -camera.view_direction(static_cast<double>(landmarks_px(i, 0)), static_cast<double>(landmarks_px(i, 1)));
     vertices.row(i) = (ray * (depth / std::max(axis.dot(ray), 0.1))).cast<float>().transpose();
   }
   return vertices;

@@ -43,14 +43,16 @@ std::vector<Fragment> rasterize_triangles(const Eigen::MatrixX2d& points_px, con
     for (int y = y_first; y < y_last; ++y) {
       for (int x = x_first; x < x_last; ++x) {
         const Eigen::Vector2d centre(x + 0.5, y + 0.5);
-        const Eigen::Vector3d on_screen = Eigen::Vector3d(edge(corner.col(1), corner.col(2), centre),
-                                                          edge(corner.col(2), corner.col(0), centre),
-                                                          edge(corner.col(0), corner.col(1), centre)) / area;
+        const Eigen::Vector3d on_screen =
+            Eigen::Vector3d(edge(corner.col(1), corner.col(2), centre), edge(corner.col(2), corner.col(0), centre),
+                            edge(corner.col(0), corner.col(1), centre)) /
+            area;
         if (on_screen.minCoeff() < 0) continue;
         // 1/z is linear on the screen; so is any surface value over z.
         const Eigen::Vector3d over_depth = on_screen.cwiseProduct(inverse_depth);
         const double here = over_depth.sum();
-        const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+        const std::size_t at =
+            static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
         if (here <= nearest[at]) continue;
         nearest[at] = here;
         fragments[at] = {t, (over_depth / here).cast<float>()};

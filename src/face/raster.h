@@ -17,7 +17,8 @@ struct Fragment {
 std::vector<Fragment> rasterize_triangles(const Eigen::MatrixX2d& points_px, const Eigen::VectorXd& depths,
                                           const Eigen::MatrixX3i& triangles, int width, int height);
 
-// #vertices x 3 unit normals: the triangles' normals averaged by the angle they have at the vertex (Thuermer & Wuethrich 1998).
+// #vertices x 3 unit normals: the triangles' normals averaged by the angle they have at the vertex (Thuermer &
+// Wuethrich 1998).
 Eigen::MatrixX3f vertex_normals(const Eigen::MatrixX3f& vertices, const Eigen::MatrixX3i& triangles);
 
 }  // namespace faceprobe::face

@@ -25,8 +25,7 @@ bool inside(const std::vector<Point>& ring, const Point& p) {
   for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
     const Point& a = ring[i];
     const Point& b = ring[j];
-    if ((a.y() > p.y()) != (b.y() > p.y()) &&
-        p.x() < (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()) + a.x()) {
+    if ((a.y() > p.y()) != (b.y() > p.y()) && p.x() < (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()) + a.x()) {
       is_inside = !is_inside;
     }
   }
@@ -38,14 +37,10 @@ constexpr std::array<int, 9> kNoseRing = {168, 193, 188, 217, 209, 129, 98, 97, 
 
 struct Rings {
   explicit Rings(const CanonicalMesh& mesh)
-      : eye(ring_points(mesh, kRightEyeRing)),
-        eyelid(ring_points(mesh, kRightEyelidRing)),
-        brow(ring_points(mesh, kRightBrowRing)),
-        outer_lip(ring_points(mesh, kOuterLipRing)),
-        inner_lip(ring_points(mesh, kInnerLipRing)),
-        nose(ring_points(mesh, kNoseRing)),
-        mouth_corner(ring_points(mesh, std::array{kRightMouthCorner}).front()),
-        nose_base(mesh.vertices_m(2, 1)),
+      : eye(ring_points(mesh, kRightEyeRing)), eyelid(ring_points(mesh, kRightEyelidRing)),
+        brow(ring_points(mesh, kRightBrowRing)), outer_lip(ring_points(mesh, kOuterLipRing)),
+        inner_lip(ring_points(mesh, kInnerLipRing)), nose(ring_points(mesh, kNoseRing)),
+        mouth_corner(ring_points(mesh, std::array{kRightMouthCorner}).front()), nose_base(mesh.vertices_m(2, 1)),
         bridge(mesh.vertices_m(168, 1)) {}
 
   std::vector<Point> eye, eyelid, brow, outer_lip, inner_lip, nose;
@@ -54,9 +49,9 @@ struct Rings {
 };
 
 // Limits that no landmark marks, in metres on the canonical face.
-constexpr float kForeheadFloor = 0.043F;       // height of the brows
-constexpr float kGlabellaHalfWidth = 0.013F;   // between the brows the forehead reaches down to the nose
-constexpr float kForeheadHalfWidth = 0.066F;   // beyond: temples
+constexpr float kForeheadFloor = 0.043F;      // height of the brows
+constexpr float kGlabellaHalfWidth = 0.013F;  // between the brows the forehead reaches down to the nose
+constexpr float kForeheadHalfWidth = 0.066F;  // beyond: temples
 constexpr float kEyeSocketFloor = 0.021F;
 constexpr float kEyeSocketHalfWidth = 0.054F;
 constexpr float kChinHalfWidth = 0.031F;
@@ -144,8 +139,8 @@ std::vector<Region> triangle_regions(const CanonicalMesh& mesh) {
   std::vector<Region> regions;
   regions.reserve(static_cast<std::size_t>(mesh.triangles.rows()));
   for (const auto& triangle : mesh.triangles.rowwise()) {
-    const Eigen::RowVector3f centre = (mesh.vertices_m.row(triangle(0)) + mesh.vertices_m.row(triangle(1)) +
-                                       mesh.vertices_m.row(triangle(2))) / 3.0F;
+    const Eigen::RowVector3f centre =
+        (mesh.vertices_m.row(triangle(0)) + mesh.vertices_m.row(triangle(1)) + mesh.vertices_m.row(triangle(2))) / 3.0F;
     regions.push_back(region_at(rings, {std::abs(centre.x()), centre.y()}));
   }
   return regions;

@@ -49,7 +49,7 @@ Sampler::Sampler(const Image& linear) {
 void Sampler::expose(const SquareRegion& region) {
   constexpr int kSize = 64;
   constexpr double kQuantile = 0.98;
-  constexpr float kDark = 0.3F;   // below, the networks begin to miss faces
+  constexpr float kDark = 0.3F;    // below, the networks begin to miss faces
   constexpr float kBright = 1.0F;  // above, HDR pictures clip
   const cv::Mat small = warp(region, kSize);
   std::vector<float> levels;

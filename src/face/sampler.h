@@ -29,9 +29,13 @@ class Sampler {
   int height() const { return levels_.front().rows; }
   // Light is multiplied by this before it is encoded; 1 at first.
   float gain() const { return gain_; }
-  // Sets the gain so that the photo, or the square, is neither black nor burnt out. A photo that is well exposed keeps 1.
-  void expose() { expose({{0.5F * static_cast<float>(width()), 0.5F * static_cast<float>(height())},
-                          static_cast<float>(width() > height() ? width() : height()), 0}); }
+  // Sets the gain so that the photo, or the square, is neither black nor burnt out. A photo that is well exposed keeps
+  // 1.
+  void expose() {
+    expose({{0.5F * static_cast<float>(width()), 0.5F * static_cast<float>(height())},
+            static_cast<float>(width() > height() ? width() : height()),
+            0});
+  }
   void expose(const SquareRegion& region);
 
   // size * size * 3 encoded values in [low, high], black outside the photo, row-major into `out`.

@@ -24,7 +24,8 @@ std::vector<float> starts(float length, float side) {
 
 SquareRegion whole_square(int width, int height, float padding) {
   return {{0.5F * static_cast<float>(width), 0.5F * static_cast<float>(height)},
-          padding * static_cast<float>(std::max(width, height)), 0};
+          padding * static_cast<float>(std::max(width, height)),
+          0};
 }
 
 std::vector<SquareRegion> tile_squares(int width, int height, float side) {

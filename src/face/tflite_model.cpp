@@ -34,7 +34,10 @@ void swallow(void*, const char*, va_list) {}
 
 std::string shape_text(const std::vector<int>& shape) {
   std::string text;
-  for (const int size : shape) text += (text.empty() ? "" : "x") + std::to_string(size);
+  for (const int size : shape) {
+    if (!text.empty()) text.push_back('x');
+    text.append(std::to_string(size));
+  }
   return text;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// One TensorFlow Lite network with float inputs and outputs. Its C headers stay inside the .cpp. Runs on one thread: with more,
-// the library's sums change in the last bits, and these networks are too small to gain from it.
+// One TensorFlow Lite network with float inputs and outputs. Its C headers stay inside the .cpp. Runs on one thread:
+// with more, the library's sums change in the last bits, and these networks are too small to gain from it.
 //
 //   TfliteModel model(path, {1, 192, 192, 3});
 //   std::ranges::copy(values, model.input().begin());

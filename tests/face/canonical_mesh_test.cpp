@@ -82,9 +82,7 @@ TEST(CanonicalMesh, RefusesDamagedFiles) {
   expect_refused(good + "f 1/1 2/2 3/3\n", "899 triangles");
 }
 
-TEST(CanonicalMesh, NamesAMissingFile) {
-  EXPECT_THROW(load_canonical_mesh("no/such/mesh.obj"), Error);
-}
+TEST(CanonicalMesh, NamesAMissingFile) { EXPECT_THROW(load_canonical_mesh("no/such/mesh.obj"), Error); }
 
 }  // namespace
 }  // namespace faceprobe::face

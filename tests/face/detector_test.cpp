@@ -3,6 +3,8 @@
 #include "face/search_plan.h"
 
 #include <gtest/gtest.h>
+#include <algorithm>
+#include <numbers>
 
 namespace faceprobe::face {
 namespace {
@@ -17,7 +19,8 @@ Detection box(float x, float y, float size, float score) {
 }
 
 TEST(Anchors, FillTheSquareEvenly) {
-  for (const auto& [kind, count] : {std::pair{DetectorKind::kShortRange, 896}, std::pair{DetectorKind::kFullRange, 2304}}) {
+  for (const auto& [kind, count] :
+       {std::pair{DetectorKind::kShortRange, 896}, std::pair{DetectorKind::kFullRange, 2304}}) {
     const std::vector<Eigen::Vector2f> anchors = anchor_centres(kind);
     ASSERT_EQ(anchors.size(), static_cast<std::size_t>(count));
     Eigen::Vector2f mean = Eigen::Vector2f::Zero();
@@ -39,7 +42,8 @@ TEST(Merge, OverlapOfKnownBoxes) {
 }
 
 TEST(Merge, AveragesByScoreAndKeepsStrangersApart) {
-  const std::vector<Detection> out = merge_overlapping({box(10.4F, 0, 10, 0.25F), box(10, 0, 10, 0.75F), box(50, 0, 10, 0.9F)}, 0.3F);
+  const std::vector<Detection> out =
+      merge_overlapping({box(10.4F, 0, 10, 0.25F), box(10, 0, 10, 0.75F), box(50, 0, 10, 0.9F)}, 0.3F);
   ASSERT_EQ(out.size(), 2U);
   EXPECT_FLOAT_EQ(out[0].centre.x(), 50);
   EXPECT_NEAR(out[1].centre.x(), 10.1F, 1e-5);

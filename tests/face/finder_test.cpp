@@ -58,7 +58,8 @@ TEST(Finder, SortsSeveralFacesAndCountsEachOnce) {
   ASSERT_EQ(faces.size(), 3U);
   for (int i = 1; i < 3; ++i) {
     const float step = faces[static_cast<std::size_t>(i)].box.x - faces[static_cast<std::size_t>(i - 1)].box.x;
-    // The same pixels seen through another resampling: the network repeats itself to a few percent of the face (200 px).
+    // The same pixels seen through another resampling: the network repeats itself to a few percent of the face (200
+    // px).
     EXPECT_NEAR(step, portrait().width(), 8);
   }
   FinderOptions options;
@@ -145,7 +146,8 @@ TEST(GivenLandmarks, TheNetworkIsBelievedWhenItAgrees) {
   EXPECT_LT(disagreement(seen.landmarks_px, given), 1e-5);
   const Face again = finder().from_landmarks(portrait(), camera_of(portrait()), given);
   EXPECT_FALSE(again.rough_landmarks);
-  EXPECT_LT((again.landmarks_px - seen.landmarks_px).leftCols<2>().rowwise().norm().mean(), 0.03 * static_cast<double>(seen.box.width));
+  EXPECT_LT((again.landmarks_px - seen.landmarks_px).leftCols<2>().rowwise().norm().mean(),
+            0.03 * static_cast<double>(seen.box.width));
   // Points of a face where there is none.
   given.col(0).array() += 1.5F * seen.box.width;
   EXPECT_TRUE(finder().from_landmarks(portrait(), camera_of(portrait()), given).rough_landmarks);

@@ -4,10 +4,10 @@
 #include "faceprobe/core/angles.h"
 #include "faceprobe/io/data_files.h"
 
+#include <unistd.h>
 #include <array>
 #include <fstream>
 #include <sstream>
-#include <unistd.h>
 
 namespace faceprobe::face {
 
@@ -20,7 +20,8 @@ Eigen::Isometry3d head_pose(double yaw_deg, double pitch_deg, double roll_deg, c
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.linear() = (Eigen::AngleAxisd(radians(-roll_deg), Eigen::Vector3d::UnitZ()) *
                    Eigen::AngleAxisd(radians(yaw_deg), Eigen::Vector3d::UnitY()) *
-                   Eigen::AngleAxisd(radians(-pitch_deg), Eigen::Vector3d::UnitX())).toRotationMatrix();
+                   Eigen::AngleAxisd(radians(-pitch_deg), Eigen::Vector3d::UnitX()))
+                      .toRotationMatrix();
   pose.translation() = position_m;
   return pose;
 }
@@ -50,7 +51,8 @@ Eigen::MatrixX2f projected_five(const Camera& camera, const Eigen::Isometry3d& c
 }
 
 Eigen::MatrixX2f projected_sixty_eight(const Camera& camera, const Eigen::Isometry3d& camera_from_face) {
-  constexpr std::array<int, 17> kJaw = {127, 234, 93, 58, 172, 136, 149, 148, 152, 377, 378, 365, 397, 288, 323, 454, 356};
+  constexpr std::array<int, 17> kJaw = {127, 234, 93,  58,  172, 136, 149, 148, 152,
+                                        377, 378, 365, 397, 288, 323, 454, 356};
   const Eigen::MatrixX3f all = projected_landmarks(camera, camera_from_face);
   Eigen::MatrixX2f px(68, 2);
   for (int i = 0; i < 68; ++i) {

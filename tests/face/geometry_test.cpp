@@ -25,7 +25,8 @@ struct Sphere {
       for (int s = 0; s < kSegments; ++s) {
         const double polar = kPi * r / kRings;
         const double azimuth = 2 * kPi * s / kSegments;
-        const Eigen::Vector3d out(std::sin(polar) * std::sin(azimuth), std::cos(polar), std::sin(polar) * std::cos(azimuth));
+        const Eigen::Vector3d out(std::sin(polar) * std::sin(azimuth), std::cos(polar),
+                                  std::sin(polar) * std::cos(azimuth));
         face.vertices_cam_m.row(r * kSegments + s) = (centre + radius * out).cast<float>().transpose();
       }
     }
@@ -76,8 +77,8 @@ TEST(Geometry, SphereHasClosedFormNormalsAndPositions) {
       ASSERT_GT(root, -1e-5);
       if (root < 0.3 * sphere.radius * sphere.radius) continue;  // towards the outline a facet's sag turns into depth
       const Eigen::Vector3d exact = -view * (along - std::sqrt(root));
-      // Half the diagonal of a 4.5 degree cell is 3.2 degrees: it sags by r (1 - cos 3.2 deg) = 0.15 mm, and the ray meets it at
-      // 57 degrees at most: 0.28 mm along the ray.
+      // Half the diagonal of a 4.5 degree cell is 3.2 degrees: it sags by r (1 - cos 3.2 deg) = 0.15 mm, and the ray
+      // meets it at 57 degrees at most: 0.28 mm along the ray.
       EXPECT_NEAR((position - exact).norm(), 0, 3e-4);
       // Interpolating unit normals between vertices 4.5 degrees apart is good to a hundredth of that.
       EXPECT_LT(angle_between_deg(Eigen::Vector3f(g.normal_cam.pixel(x, y)).cast<double>(), exact - sphere.centre), 0.3);
@@ -92,7 +93,8 @@ TEST(Geometry, FaceIsSeenFromTheFront) {
   Face face;
   face.camera_from_face = head_pose(20, 5, 0, {0, 0, -0.7});
   face.landmarks_px = projected_landmarks(kCamera, face.camera_from_face);
-  face.vertices_cam_m = (face.camera_from_face * canonical_mesh().vertices_m.cast<double>().transpose()).transpose().cast<float>();
+  face.vertices_cam_m =
+      (face.camera_from_face * canonical_mesh().vertices_m.cast<double>().transpose()).transpose().cast<float>();
   const Eigen::RowVector3f low = face.landmarks_px.colwise().minCoeff();
   const Eigen::RowVector3f high = face.landmarks_px.colwise().maxCoeff();
   face.box = {low.x(), low.y(), high.x() - low.x(), high.y() - low.y()};
@@ -113,7 +115,8 @@ TEST(Geometry, FaceIsSeenFromTheFront) {
   }
   EXPECT_GT(front, 0.3 * crop.width * crop.height);
   // The nose points where the head does.
-  const Eigen::Vector2d nose = crop.crop_from_photo(static_cast<double>(face.landmarks_px(4, 0)), static_cast<double>(face.landmarks_px(4, 1)));
+  const Eigen::Vector2d nose =
+      crop.crop_from_photo(static_cast<double>(face.landmarks_px(4, 0)), static_cast<double>(face.landmarks_px(4, 1)));
   EXPECT_EQ(g.region(static_cast<int>(nose.x()), static_cast<int>(nose.y())), static_cast<int>(Region::kNose));
 }
 

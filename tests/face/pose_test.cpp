@@ -38,10 +38,12 @@ TEST(Pose, NoiseOfAPixelMovesItLittle) {
   for (const Case& c : kCases) {
     const Eigen::Isometry3d truth = head_pose(c.yaw, c.pitch, c.roll, c.position);
     Eigen::MatrixX3f landmarks = projected_landmarks(kCamera, truth);
-    for (int i = 0; i < landmarks.rows(); ++i) landmarks.row(i).head<2>() += Eigen::RowVector2f(noise(random), noise(random));
+    for (int i = 0; i < landmarks.rows(); ++i)
+      landmarks.row(i).head<2>() += Eigen::RowVector2f(noise(random), noise(random));
     const Eigen::Isometry3d found = fit_pose(landmarks, canonical_mesh(), kCamera);
-    // Face f * 0.15 m / z px wide, over 200 points: 1 px turns a lever of half the width by 1 / (w/2) rad, over sqrt(200 / 2);
-    // depth differences are a third of the width, and five standard deviations leave room for their poorer lever.
+    // Face f * 0.15 m / z px wide, over 200 points: 1 px turns a lever of half the width by 1 / (w/2) rad, over
+    // sqrt(200 / 2); depth differences are a third of the width, and five standard deviations leave room for their
+    // poorer lever.
     const double width_px = kCamera.focal_px * 0.15 / c.position.norm();
     EXPECT_LT(angle_deg(found, truth), degrees(5 * 3 * 2 / width_px / 10)) << c.yaw;
     EXPECT_LT(std::abs(found.translation().norm() / c.position.norm() - 1), 5 * 2 / width_px / 5);
@@ -70,8 +72,8 @@ TEST(Pose, PosedMeshIsTheRigidMeshForARigidFace) {
     const Eigen::MatrixX3f landmarks = projected_landmarks(kCamera, truth);
     const Eigen::MatrixX3f found = posed_mesh(landmarks, truth, canonical_mesh(), kCamera);
     const Eigen::MatrixX3d exact = (truth * canonical_mesh().vertices_m.cast<double>().transpose()).transpose();
-    // Centimetres of depth error would be a tenth of the face; the scale of z differs by z / |position| off the axis, so that
-    // 4 cm of depth may be wrong by some percent.
+    // Centimetres of depth error would be a tenth of the face; the scale of z differs by z / |position| off the axis,
+    // so that 4 cm of depth may be wrong by some percent.
     EXPECT_LT((found.cast<double>() - exact).rowwise().norm().maxCoeff(), 0.005) << c.yaw;
     for (int i = 0; i < found.rows(); ++i) {
       const Eigen::Vector2d px = kCamera.project(found.row(i).transpose().cast<double>());

@@ -1,6 +1,7 @@
 #include "face/raster.h"
 
 #include <gtest/gtest.h>
+#include <algorithm>
 
 namespace faceprobe::face {
 namespace {
@@ -13,7 +14,8 @@ Eigen::MatrixX2d triangle_px() {
 }
 
 TEST(Raster, WeightsAreAffineAtEqualDepth) {
-  const auto out = rasterize_triangles(triangle_px(), Eigen::VectorXd::Constant(3, 2.0), Eigen::RowVector3i(0, 1, 2), 10, 10);
+  const auto out =
+      rasterize_triangles(triangle_px(), Eigen::VectorXd::Constant(3, 2.0), Eigen::RowVector3i(0, 1, 2), 10, 10);
   int filled = 0;
   for (int y = 0; y < 10; ++y) {
     for (int x = 0; x < 10; ++x) {
@@ -24,7 +26,8 @@ TEST(Raster, WeightsAreAffineAtEqualDepth) {
       EXPECT_NEAR((there - Eigen::Vector2d(x + 0.5, y + 0.5)).norm(), 0, 1e-5);  // float weights times 9 px
     }
   }
-  EXPECT_EQ(filled, 36);  // 8 x 8 / 2 and half of the diagonal of 8 pixel centres, which lie on the edge and count as inside
+  EXPECT_EQ(filled,
+            36);  // 8 x 8 / 2 and half of the diagonal of 8 pixel centres, which lie on the edge and count as inside
 }
 
 TEST(Raster, WeightsFollowPerspective) {
@@ -77,7 +80,8 @@ TEST(Raster, NeighboursLeaveNoGap) {
 }
 
 TEST(Raster, VertexNormalOfACubeCornerIgnoresItsTriangulation) {
-  // The corner of three square faces; one of them cut into two triangles there. Weighing by angle, each face counts 90 degrees.
+  // The corner of three square faces; one of them cut into two triangles there. Weighing by angle, each face counts 90
+  // degrees.
   Eigen::MatrixX3f v(8, 3);
   v << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 0, 1, 0, 1, 0, 1, 1, 0, 0, 0;
   Eigen::MatrixX3i t(4, 3);

@@ -45,7 +45,8 @@ TEST(Region, LeftMirrorsRight) {
   const std::vector<Region> regions = triangle_regions(mesh);
   std::map<std::set<int>, Region> by_corners;
   for (int t = 0; t < mesh.triangles.rows(); ++t) {
-    by_corners[{mesh.triangles(t, 0), mesh.triangles(t, 1), mesh.triangles(t, 2)}] = regions[static_cast<std::size_t>(t)];
+    by_corners[{mesh.triangles(t, 0), mesh.triangles(t, 1), mesh.triangles(t, 2)}] =
+        regions[static_cast<std::size_t>(t)];
   }
   int compared = 0;
   for (const auto& [corners, region] : by_corners) {

@@ -3,6 +3,7 @@
 #include "faceprobe/core/color.h"
 
 #include <gtest/gtest.h>
+#include <numbers>
 
 namespace faceprobe::face {
 namespace {
@@ -17,7 +18,8 @@ TEST(Sampler, PixelForPixelItEncodes) {
   Image image(8, 8, 3);
   for (std::size_t i = 0; i < image.values().size(); ++i) image.data()[i] = static_cast<float>(i) / 200;
   const std::vector<float> out = sample(Sampler(image), {{4, 4}, 8, 0}, 8);
-  for (std::size_t i = 0; i < out.size(); ++i) EXPECT_NEAR(out[i], srgb_from_linear(image.data()[i]), 5e-4);  // table steps
+  for (std::size_t i = 0; i < out.size(); ++i)
+    EXPECT_NEAR(out[i], srgb_from_linear(image.data()[i]), 5e-4);  // table steps
 }
 
 TEST(Sampler, RangeGreyAndOutside) {
@@ -45,7 +47,8 @@ TEST(Sampler, ShrinkingAveragesLight) {
   for (int y = 0; y < 1024; ++y) {
     for (int x = 0; x < 1024; ++x) board(x, y) = static_cast<float>((x + y) % 2);
   }
-  for (const float value : sample(Sampler(board), {{510, 505}, 700, 0.3F}, 64)) EXPECT_NEAR(value, srgb_from_linear(0.5F), 0.02);
+  for (const float value : sample(Sampler(board), {{510, 505}, 700, 0.3F}, 64))
+    EXPECT_NEAR(value, srgb_from_linear(0.5F), 0.02);
 }
 
 TEST(Sampler, ShrinkingStaysInPlace) {

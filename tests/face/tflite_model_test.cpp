@@ -4,8 +4,8 @@
 #include "faceprobe/core/error.h"
 #include "faceprobe/io/data_files.h"
 
-#include <algorithm>
 #include <gtest/gtest.h>
+#include <algorithm>
 
 namespace faceprobe::face {
 namespace {

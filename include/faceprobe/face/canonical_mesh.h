@@ -1,7 +1,7 @@
 #pragma once
 // The mean face that all landmarks refer to: MediaPipe's canonical mesh, 468 vertices and 898 triangles, eyes and mouth
-// closed over, in metres (the file is in centimetres). Axes: +x the subject's left (right in a frontal photo), +y up, +z out
-// of the face.
+// closed over, in metres (the file is in centimetres). Axes: +x the subject's left (right in a frontal photo), +y up,
+// +z out of the face.
 
 #include <Eigen/Core>
 #include <filesystem>

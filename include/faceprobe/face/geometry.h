@@ -2,11 +2,13 @@
 // The face mesh as pictures: per pixel of a crop, what the light estimate needs to know about the surface seen there.
 //
 //   GeometryOptions options;  options.long_side_px = 256;
-//   FaceGeometry g = rasterize(face, camera, mesh, photo.linear.width(), photo.linear.height(), options);
+//   const Crop crop = face_crop(face, photo.linear.width(), photo.linear.height(), options);
+//   FaceGeometry g = rasterize(face, camera, mesh, crop);
 //   Eigen::Vector3f n(g.normal_cam.pixel(x, y));
 //
-// The mesh's own normals are good to about 13 degrees (median, against a head scan; see docs/results.md for the command): the nose and the
-// mouth are the worst. Depth and normals are those of the posed mesh; eyes and mouth are closed over.
+// The mesh's own normals are good to about 13 degrees (median, against a head scan; see docs/results.md for the
+// command): the nose and the mouth are the worst. Depth and normals are those of the posed mesh; eyes and mouth are
+// closed over.
 
 #include "faceprobe/core/image.h"
 #include "faceprobe/face/canonical_mesh.h"
@@ -29,8 +31,8 @@ struct Crop {
 };
 
 struct GeometryOptions {
-  int long_side_px = 256;   // of the crop; never more than the photo has when allow_enlarging is false
-  double margin = 0.15;     // of the landmarks' box, on each side
+  int long_side_px = 256;  // of the crop; never more than the photo has when allow_enlarging is false
+  double margin = 0.15;    // of the landmarks' box, on each side
   bool allow_enlarging = false;
 
   std::string validate() const;

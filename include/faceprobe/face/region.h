@@ -1,6 +1,6 @@
 #pragma once
-// What a pixel of a face is. The first ten are the skin regions that reflectance statistics are given for (Weyrich et al.
-// 2006, "Analysis of human faces using a measurement-based skin reflectance model"); the rest is not skin.
+// What a pixel of a face is. The first ten are the skin regions that reflectance statistics are given for (Weyrich et
+// al. 2006, "Analysis of human faces using a measurement-based skin reflectance model"); the rest is not skin.
 
 #include "faceprobe/face/canonical_mesh.h"
 
@@ -13,13 +13,23 @@ namespace faceprobe::face {
 
 enum class Region : std::uint8_t {
   kNone = 0,  // not face
-  kForehead, kNose, kCheeks, kUpperLip, kLips, kChin, kJaw, kEyelids, kBrows, kOther,  // the ten skin regions
-  kEyes, kMouth,  // eyeballs; between the lips
+  kForehead,
+  kNose,
+  kCheeks,
+  kUpperLip,
+  kLips,
+  kChin,
+  kJaw,
+  kEyelids,
+  kBrows,
+  kOther,  // the ten skin regions
+  kEyes,
+  kMouth,  // eyeballs; between the lips
 };
 inline constexpr int kRegionCount = 13;
 
-std::string_view region_name(Region region);                  // "forehead", ...
-std::array<std::uint8_t, 3> region_colour(Region region);     // sRGB, for pictures
+std::string_view region_name(Region region);               // "forehead", ...
+std::array<std::uint8_t, 3> region_colour(Region region);  // sRGB, for pictures
 // Skin whose highlights can be used: the ten regions without lips and brows.
 bool is_probe_skin(Region region);
 

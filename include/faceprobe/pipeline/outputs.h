@@ -8,6 +8,7 @@
 #include "faceprobe/pipeline/estimate.h"
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
