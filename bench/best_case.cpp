@@ -56,8 +56,7 @@ int run(const std::filesystem::path& data, int maps, float noise) {
   const SphereGrid grid(16);
   lighting::Observations face =
       bench::head_observations(data / "faces" / "ict_facekit" / "generic_neutral_mesh.obj", 60, 9409);
-  const lighting::RowMatrix highlight_rows = lighting::highlight_transport(face, grid);
-  const lighting::RowMatrix shading_rows = lighting::diffuse_transport(face, grid);
+  const lighting::Transport transport = lighting::build_transport(face, grid);
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(data / "hdri" / "dev")) {
     if (entry.path().extension() == ".hdr") files.push_back(entry.path());
@@ -75,8 +74,8 @@ int run(const std::filesystem::path& data, int maps, float noise) {
       const Eigen::Matrix3f turn =
           Eigen::AngleAxisf(static_cast<float>(radians(yaw_deg)), Eigen::Vector3f::UnitY()).toRotationMatrix();
       const Eigen::MatrixX3f truth = grid_from_env_map(rotate(map, turn), grid);
-      face.highlight = highlight_rows * truth;
-      face.shading = shading_rows * truth;
+      face.highlight = transport.highlight * truth;
+      face.shading = transport.diffuse * truth;
       add_noise(face.highlight, noise, random);
       add_noise(face.shading, noise, random);
       for (std::size_t k = 0; k < rows.size(); ++k) {

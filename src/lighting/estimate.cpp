@@ -22,6 +22,7 @@ std::string SolveOptions::validate() const {
   if (highlight_weight < 0 || shading_weight < 0 || highlight_weight + shading_weight <= 0) {
     return "The weights of highlights and shading must not be negative, nor both zero.";
   }
+  if (!(prior_weight >= 0)) return "prior_weight must not be negative.";
   if (max_leak < 0 || max_leak > 1) return "max_leak must lie in [0, 1].";
   if (colour_iterations < 0 || colour_iterations > 1000) return "colour_iterations must be from 0 to 1000.";
   return {};

@@ -2,7 +2,7 @@
 
 #include "faceprobe/core/angles.h"
 #include "faceprobe/core/parallel.h"
-#include "faceprobe/lighting/observations.h"
+#include "lighting/horizon_profile.h"
 
 #include <algorithm>
 #include <cmath>
@@ -47,17 +47,40 @@ Eigen::MatrixXf horizon_tangents(const Image& position_cam_m, const Eigen::Matri
   return tangents;
 }
 
-float horizon_visibility(const Eigen::Ref<const Eigen::RowVectorXf>& tangents, const Eigen::Vector3f& direction) {
+HorizonPlace horizon_place(const Eigen::Vector3f& direction) {
   double turn = std::atan2(static_cast<double>(direction.y()), static_cast<double>(direction.x())) / (2.0 * kPi);
   if (turn < 0) turn += 1.0;
   const double position = turn * kHorizonAzimuths;
-  const int before = static_cast<int>(position) % kHorizonAzimuths;
-  const int after = (before + 1) % kHorizonAzimuths;
-  const auto fraction = static_cast<float>(position - std::floor(position));
-  const float horizon = (1.0F - fraction) * std::atan(tangents[before]) + fraction * std::atan(tangents[after]);
-  const float elevation = std::atan2(direction.z(), std::hypot(direction.x(), direction.y()));
-  const float t = std::clamp((elevation - horizon) / (2.0F * kSoftEdgeRad) + 0.5F, 0.0F, 1.0F);
+  HorizonPlace place;
+  place.before = static_cast<int>(position) % kHorizonAzimuths;
+  place.after = (place.before + 1) % kHorizonAzimuths;
+  place.fraction = static_cast<float>(position - std::floor(position));
+  place.elevation = std::atan2(direction.z(), std::hypot(direction.x(), direction.y()));
+  return place;
+}
+
+std::vector<HorizonPlace> horizon_places(const Eigen::MatrixX3f& directions) {
+  std::vector<HorizonPlace> places;
+  places.reserve(static_cast<std::size_t>(directions.rows()));
+  for (Eigen::Index j = 0; j < directions.rows(); ++j) places.push_back(horizon_place(directions.row(j).transpose()));
+  return places;
+}
+
+HorizonProfile horizon_profile(const Eigen::Ref<const Eigen::RowVectorXf>& tangents) {
+  HorizonProfile profile{};
+  for (int a = 0; a < kHorizonAzimuths; ++a) profile[static_cast<std::size_t>(a)] = std::atan(tangents[a]);
+  return profile;
+}
+
+float profile_visibility(const HorizonProfile& profile, const HorizonPlace& place) {
+  const float horizon = (1.0F - place.fraction) * profile[static_cast<std::size_t>(place.before)] +
+                        place.fraction * profile[static_cast<std::size_t>(place.after)];
+  const float t = std::clamp((place.elevation - horizon) / (2.0F * kSoftEdgeRad) + 0.5F, 0.0F, 1.0F);
   return t * t * (3.0F - 2.0F * t);
+}
+
+float horizon_visibility(const Eigen::Ref<const Eigen::RowVectorXf>& tangents, const Eigen::Vector3f& direction) {
+  return profile_visibility(horizon_profile(tangents), horizon_place(direction));
 }
 
 }  // namespace faceprobe::lighting

@@ -4,46 +4,63 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <numeric>
 #include <stdexcept>
+#include <vector>
 
 namespace faceprobe::lighting {
 
 namespace {
 
-// Products are split into blocks of fixed size, whatever the number of threads: each block is one single-threaded product, so
-// the rounding is the same on 1 and on N threads.
-constexpr int kBlock = 192;
+// Rows are worked on in blocks of fixed size, whatever the number of threads: each block is one single-threaded product and the
+// blocks' corrections are added in order, so the rounding is the same on 1 and on N threads. A block stays in the cache between
+// its two products, which halves the memory traffic that the iteration is bound by.
+constexpr int kBlock = 64;
 
 int blocks(Eigen::Index size) { return static_cast<int>((size + kBlock - 1) / kBlock); }
 
-Eigen::Index block_size(int block, Eigen::Index size) {
-  return std::min<Eigen::Index>(kBlock, size - static_cast<Eigen::Index>(block) * kBlock);
+struct Block {
+  Eigen::Index at;
+  Eigen::Index size;
+};
+
+Block block_of(int number, Eigen::Index rows) {
+  const Eigen::Index at = static_cast<Eigen::Index>(number) * kBlock;
+  return {at, std::min<Eigen::Index>(kBlock, rows - at)};
 }
 
-void predict(const RowMatrix& transport, const Eigen::MatrixXf& estimate, int threads, Eigen::MatrixXf& predicted) {
-  parallel_for(blocks(transport.rows()), threads, [&](int first, int last) {
+// sum over rows of ratios(block) back through the transport; `ratios` may look at the block's own prediction.
+template <class Ratios>
+Eigen::MatrixXf back_projected(const RowMatrix& transport, Eigen::Index channels, int threads, const Ratios& ratios) {
+  std::vector<Eigen::MatrixXf> partial(static_cast<std::size_t>(blocks(transport.rows())));
+  parallel_for(static_cast<int>(partial.size()), threads, [&](int first, int last) {
     for (int b = first; b < last; ++b) {
-      const Eigen::Index at = static_cast<Eigen::Index>(b) * kBlock;
-      const Eigen::Index n = block_size(b, transport.rows());
-      predicted.middleRows(at, n).noalias() = transport.middleRows(at, n) * estimate;
+      const Block block = block_of(b, transport.rows());
+      const Eigen::MatrixXf values = ratios(block);
+      partial[static_cast<std::size_t>(b)].noalias() =
+          transport.middleRows(block.at, block.size).transpose() * values;
     }
   });
+  Eigen::MatrixXf sum = Eigen::MatrixXf::Zero(transport.cols(), channels);
+  for (const Eigen::MatrixXf& part : partial) sum += part;
+  return sum;
 }
 
-void back_project(const RowMatrix& transport, const Eigen::MatrixXf& ratios, int threads, Eigen::MatrixXf& correction) {
-  parallel_for(blocks(transport.cols()), threads, [&](int first, int last) {
-    for (int b = first; b < last; ++b) {
-      const Eigen::Index at = static_cast<Eigen::Index>(b) * kBlock;
-      const Eigen::Index n = block_size(b, transport.cols());
-      correction.middleRows(at, n).noalias() = transport.middleCols(at, n).transpose() * ratios;
-    }
-  });
+float median_above(const Eigen::VectorXf& values, float least) {
+  std::vector<float> kept;
+  std::copy_if(values.begin(), values.end(), std::back_inserter(kept), [least](float v) { return v > least; });
+  if (kept.empty()) return 0.0F;
+  const auto middle = kept.begin() + static_cast<std::ptrdiff_t>(kept.size() / 2);
+  std::nth_element(kept.begin(), middle, kept.end());
+  return *middle;
 }
 
 }  // namespace
 
 std::string RichardsonLucyOptions::validate() const {
   if (iterations < 0 || iterations > 10'000) return "iterations must be from 0 to 10000.";
+  if (!(prior_weight >= 0)) return "prior_weight must not be negative.";
   if (!(unobserved_share >= 0) || unobserved_share >= 1) return "unobserved_share must lie in [0, 1).";
   return {};
 }
@@ -61,42 +78,44 @@ RichardsonLucyResult richardson_lucy(const RowMatrix& transport, const Eigen::Ve
   }
   RichardsonLucyResult result;
   result.estimate = start;
-  Eigen::MatrixXf weight_column = weight;
-  Eigen::MatrixXf sensitivity(transport.cols(), 1);
-  back_project(transport, weight_column, options.threads, sensitivity);
-  result.sensitivity = sensitivity.col(0);
+  const Eigen::Index channels = observed.cols();
+  result.sensitivity =
+      back_projected(transport, 1, options.threads, [&](const Block& b) -> Eigen::MatrixXf { return weight.segment(b.at, b.size); });
   const float least = options.unobserved_share * std::max(0.0F, result.sensitivity.maxCoeff());
+  const float prior = options.prior_weight * median_above(result.sensitivity, least);
 
-  Eigen::MatrixXf predicted(transport.rows(), observed.cols());
-  Eigen::MatrixXf correction(transport.cols(), observed.cols());
   // Predictions far below anything observed would turn one bad row into a spike; a floor relative to the data keeps the ratio
   // bounded and is too small to matter elsewhere.
   const float floor = std::max(1e-30F, 1e-6F * observed.cwiseAbs().maxCoeff());
+  std::vector<double> block_likelihood(static_cast<std::size_t>(blocks(transport.rows())));
+  const auto ratios = [&](const Block& b) -> Eigen::MatrixXf {
+    Eigen::MatrixXf values = transport.middleRows(b.at, b.size) * result.estimate;
+    double likelihood = 0;
+    for (Eigen::Index c = 0; c < channels; ++c) {
+      for (Eigen::Index i = 0; i < b.size; ++i) {
+        const float h = observed(b.at + i, c);
+        const float p = std::max(values(i, c), floor);
+        if (options.track_likelihood) likelihood += weight[b.at + i] * (h * std::log(static_cast<double>(p)) - p);
+        float ratio = h / p;
+        if (bounded && lower_bound(b.at + i, c)) ratio = std::max(ratio, 1.0F);
+        values(i, c) = weight[b.at + i] * ratio;
+      }
+    }
+    block_likelihood[static_cast<std::size_t>(b.at / kBlock)] = likelihood;
+    return values;
+  };
   for (int iteration = 0;; ++iteration) {
     if (iteration == options.iterations && !options.track_likelihood) break;
-    predict(transport, result.estimate, options.threads, predicted);
+    const Eigen::MatrixXf correction = back_projected(transport, channels, options.threads, ratios);
     if (options.track_likelihood) {
-      double likelihood = 0;
-      for (Eigen::Index c = 0; c < observed.cols(); ++c) {
-        for (Eigen::Index i = 0; i < observed.rows(); ++i) {
-          const double p = std::max(predicted(i, c), floor);
-          likelihood += weight[i] * (observed(i, c) * std::log(p) - p);
-        }
-      }
-      result.log_likelihood.push_back(likelihood);
+      result.log_likelihood.push_back(std::accumulate(block_likelihood.begin(), block_likelihood.end(), 0.0));
     }
     if (iteration == options.iterations) break;
-    for (Eigen::Index c = 0; c < observed.cols(); ++c) {
-      for (Eigen::Index i = 0; i < observed.rows(); ++i) {
-        float ratio = observed(i, c) / std::max(predicted(i, c), floor);
-        if (bounded && lower_bound(i, c)) ratio = std::max(ratio, 1.0F);
-        predicted(i, c) = weight[i] * ratio;
-      }
-    }
-    back_project(transport, predicted, options.threads, correction);
-    for (Eigen::Index c = 0; c < observed.cols(); ++c) {
+    for (Eigen::Index c = 0; c < channels; ++c) {
       for (Eigen::Index j = 0; j < transport.cols(); ++j) {
-        if (result.sensitivity[j] > least) result.estimate(j, c) *= correction(j, c) / result.sensitivity[j];
+        if (result.sensitivity[j] <= least) continue;
+        float& e = result.estimate(j, c);
+        e = (e * correction(j, c) + prior * start(j, c)) / (result.sensitivity[j] + prior);
       }
     }
   }

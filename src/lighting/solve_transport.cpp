@@ -39,6 +39,7 @@ float weighted_sum(const Eigen::VectorXf& weight, const Eigen::VectorXf& values)
 RichardsonLucyOptions rl_options(const SolveOptions& options, int iterations) {
   RichardsonLucyOptions rl;
   rl.iterations = iterations;
+  rl.prior_weight = options.prior_weight;
   rl.threads = options.threads;
   return rl;
 }
@@ -162,8 +163,9 @@ Light solve_transport(const Observations& observations, const SolveOptions& opti
   light.ambient.setZero();
   if (observations.count() == 0) return light;
 
-  const RowMatrix shading_rows = diffuse_transport(observations, grid, options.threads);
-  const RowMatrix highlight_rows = highlight_transport(observations, grid, options.threads);
+  const Transport transport = build_transport(observations, grid, options.threads);
+  const RowMatrix& shading_rows = transport.diffuse;
+  const RowMatrix& highlight_rows = transport.highlight;
   Eigen::MatrixX3f highlight = observations.highlight;
   const float weight = observations.weight.sum();
   // Uniform radiance L gives a shading of at most L, so the mean shading is the right order of magnitude to start from.

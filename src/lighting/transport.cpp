@@ -3,51 +3,40 @@
 #include "faceprobe/core/angles.h"
 #include "faceprobe/core/microfacet.h"
 #include "faceprobe/core/parallel.h"
-#include "faceprobe/lighting/horizon.h"
+#include "lighting/horizon_profile.h"
 
 #include <stdexcept>
 
 namespace faceprobe::lighting {
 
-namespace {
-
-// Fills one row per patch with kernel(patch, direction) * visibility * solid angle, skipping cells behind the surface.
-template <class Kernel>
-RowMatrix fill_rows(const Observations& observations, const SphereGrid& grid, int threads, const Kernel& kernel) {
+Transport build_transport(const Observations& observations, const SphereGrid& grid, int threads) {
   if (const std::string fault = observations.validate(); !fault.empty()) throw std::invalid_argument(fault);
   const auto solid_angle = static_cast<float>(grid.cell_solid_angle());
-  RowMatrix rows = RowMatrix::Zero(observations.count(), grid.cell_count());
   const bool shadowed = observations.horizon.rows() > 0;
+  const std::vector<HorizonPlace> places = shadowed ? horizon_places(grid.directions()) : std::vector<HorizonPlace>();
+  Transport transport;
+  transport.highlight = RowMatrix::Zero(observations.count(), grid.cell_count());
+  transport.diffuse = RowMatrix::Zero(observations.count(), grid.cell_count());
   parallel_for(static_cast<int>(observations.count()), threads, [&](int first, int last) {
     for (int i = first; i < last; ++i) {
       const Eigen::Vector3f normal = observations.normal.row(i).transpose();
-      const Eigen::RowVectorXf horizon = shadowed ? Eigen::RowVectorXf(observations.horizon.row(i)) : Eigen::RowVectorXf();
+      const Eigen::Vector3f view = observations.view.row(i).transpose();
+      const Microfacet skin{.roughness = observations.roughness[i], .specular_albedo = observations.specular_albedo[i]};
+      HorizonProfile profile{};
+      if (shadowed) profile = horizon_profile(observations.horizon.row(i));
       for (int j = 0; j < grid.cell_count(); ++j) {
         const Eigen::Vector3f light = grid.direction(j);
-        if (normal.dot(light) <= 0.0F) continue;
-        float value = kernel(i, light);
-        if (value <= 0.0F) continue;
-        if (shadowed) value *= horizon_visibility(horizon, light);
-        rows(i, j) = value * solid_angle;
+        const float cosine = normal.dot(light);
+        if (cosine <= 0.0F) continue;
+        const float visible =
+            solid_angle * (shadowed ? profile_visibility(profile, places[static_cast<std::size_t>(j)]) : 1.0F);
+        if (visible <= 0.0F) continue;
+        transport.highlight(i, j) = visible * specular_lobe(normal, view, light, skin);
+        transport.diffuse(i, j) = visible * cosine / static_cast<float>(kPi);
       }
     }
   });
-  return rows;
-}
-
-}  // namespace
-
-RowMatrix highlight_transport(const Observations& observations, const SphereGrid& grid, int threads) {
-  return fill_rows(observations, grid, threads, [&](int i, const Eigen::Vector3f& light) {
-    return specular_lobe(observations.normal.row(i).transpose(), observations.view.row(i).transpose(), light,
-                         {.roughness = observations.roughness[i], .specular_albedo = observations.specular_albedo[i]});
-  });
-}
-
-RowMatrix diffuse_transport(const Observations& observations, const SphereGrid& grid, int threads) {
-  return fill_rows(observations, grid, threads, [&](int i, const Eigen::Vector3f& light) {
-    return observations.normal.row(i).dot(light) / static_cast<float>(kPi);
-  });
+  return transport;
 }
 
 }  // namespace faceprobe::lighting

@@ -14,7 +14,7 @@ namespace {
 
 using face::Region;
 
-constexpr float kLeastCosine = 0.15F;  // N.V below which a millimetre of mesh error moves the normal out of sight
+constexpr float kLeastCosine = 0.3F;  // N.V below which a millimetre of mesh error may put a pixel off the face
 
 // How far the face mesh's normals can be believed: the square of the cheeks' error over the region's, from a comparison with a head
 // scan (cheeks 5.5 degrees, forehead 15, nose 21, eyes 21, mouth 24), softened so that no region is silenced.
@@ -120,7 +120,7 @@ lighting::Observations observe(const face::FaceGeometry& geometry, const Image& 
     o.clipped.row(i) = (p.clipped / p.pixels > 0.25F).transpose();
     o.roughness[i] = p.roughness / p.pixels;
     o.specular_albedo[i] = p.specular_albedo / p.pixels;
-    o.weight[i] = p.trust * std::max(1e-3F, smooth_step(kLeastCosine, 0.5F, o.normal.row(i).dot(o.view.row(i))));
+    o.weight[i] = p.trust * std::max(1e-3F, smooth_step(kLeastCosine, 0.6F, o.normal.row(i).dot(o.view.row(i))));
     centres(i, 0) = static_cast<int>(std::lround(p.x / p.pixels));
     centres(i, 1) = static_cast<int>(std::lround(p.y / p.pixels));
   }

@@ -1,6 +1,7 @@
 #include "faceprobe/pipeline/outputs.h"
 
 #include "faceprobe/core/color.h"
+#include "faceprobe/core/parallel.h"
 #include "faceprobe/core/version.h"
 #include "faceprobe/io/atomic_file.h"
 #include "faceprobe/io/picture_file.h"
@@ -8,56 +9,86 @@
 #include "faceprobe/pipeline/report.h"
 #include "pipeline/canvas.h"
 
+#include <atomic>
+#include <functional>
+#include <utility>
+
 namespace faceprobe::pipeline {
 
 namespace {
 
 using Path = std::filesystem::path;
 
-struct Writer {
-  const OutputOptions& output;
-  const io::Attributes& attributes;
-  std::vector<Path>& written;
+// What is to be written, in order. Encoding and waiting for the disk overlap when the jobs run side by side.
+class Writer {
+ public:
+  Writer(const OutputOptions& output, io::Attributes attributes) : output_(output), attributes_(std::move(attributes)) {}
 
-  template <class Picture>
-  void picture(const Path& path, const Picture& image) {
-    io::write_picture(path, image, attributes);
-    written.push_back(path);
+  void job(const Path& path, std::function<void()> write) {
+    written_.push_back(path);
+    jobs_.push_back(std::move(write));
+  }
+  void picture(const Path& path, const Image& image) {
+    job(path, [this, path, &image] { io::write_picture(path, image, attributes_); });
+  }
+  void drawing(const Path& path, std::function<ByteImage()> draw) {
+    job(path, [this, path, draw = std::move(draw)] { io::write_picture(path, draw(), attributes_); });
   }
   // .exr as it is; .png with a gain that makes dim layers visible.
-  void layer(const Path& folder, const std::string& name, const Image& image, float png_gain = 1.0F) {
+  void layer(const Path& folder, const std::string& name, const Image& image, bool exposed) {
     picture(folder / (name + ".exr"), image);
-    picture(folder / (name + ".png"), encode_srgb(image, png_gain));
+    drawing(folder / (name + ".png"), [&image, exposed] { return encode_srgb(image, exposed ? display_gain(image) : 1.0F); });
   }
   void maps(const Path& folder, const LightResult& light) {
     for (const char* extension : {".exr", ".hdr", ".png"}) {
       const Path path = folder / (std::string("environment") + extension);
-      io::write_env_map(path, light.environment, output.orientation, attributes);
-      written.push_back(path);
+      job(path, [this, path, &light] { io::write_env_map(path, light.environment, output_.orientation, attributes_); });
     }
-    const EnvMap confidence = to_orientation(light.confidence, output.orientation);
-    Image single(confidence.width(), confidence.height(), 1);
-    for (int y = 0; y < single.height(); ++y) {
-      for (int x = 0; x < single.width(); ++x) single(x, y) = confidence.radiance()(x, y, 0);
-    }
-    picture(folder / "confidence.exr", single);
+    const Path path = folder / "confidence.exr";
+    job(path, [this, path, &light] { io::write_picture(path, single_channel(light.confidence), attributes_); });
   }
+  void run(int threads) {
+    // A job or two more than processors: writing is partly waiting.
+    const int workers = 2 * (threads > 0 ? threads : default_thread_count());
+    std::atomic<std::size_t> next{0};
+    parallel_for(workers, workers, [&](int, int) {
+      for (std::size_t i = next++; i < jobs_.size(); i = next++) jobs_[i]();
+    });
+  }
+  std::vector<Path> written() && { return std::move(written_); }
+
+ private:
+  Image single_channel(const EnvMap& map) const {
+    const EnvMap turned = to_orientation(map, output_.orientation);
+    Image single(turned.width(), turned.height(), 1);
+    for (int y = 0; y < single.height(); ++y) {
+      for (int x = 0; x < single.width(); ++x) single(x, y) = turned.radiance()(x, y, 0);
+    }
+    return single;
+  }
+
+  const OutputOptions& output_;
+  io::Attributes attributes_;
+  std::vector<Path> written_;
+  std::vector<std::function<void()>> jobs_;
 };
 
-void write_face(const Path& folder, const Estimate& estimate, const io::Photo& photo, std::size_t index, int threads, Writer& writer) {
+void add_face(const Path& folder, const Estimate& estimate, const io::Photo& photo, std::size_t index, const OutputOptions& output,
+              Writer& writer) {
   const FaceEstimate& face = estimate.faces[index];
   io::create_folder(folder);
-  writer.maps(folder, face);
-  if (writer.output.layers) {
-    writer.layer(folder, "highlight", face.layers.highlight);
-    writer.layer(folder, "diffuse", face.layers.diffuse);
-    writer.layer(folder, "albedo", face.albedo);
-    writer.layer(folder, "shading", face.shading, display_gain(face.shading));
-    writer.picture(folder / "normals.exr", face.geometry.normal_cam);
-    writer.picture(folder / "normals.png", normals_picture(face.geometry));
-    writer.picture(folder / "regions.png", regions_picture(face.geometry));
+  if (output.overview) {
+    writer.drawing(folder / "overview.png", [&estimate, &photo, index] { return draw_overview(estimate, photo, index, 1); });
   }
-  if (writer.output.overview) writer.picture(folder / "overview.png", draw_overview(estimate, photo, index, threads));
+  writer.maps(folder, face);
+  if (!output.layers) return;
+  writer.layer(folder, "highlight", face.layers.highlight, false);
+  writer.layer(folder, "diffuse", face.layers.diffuse, false);
+  writer.layer(folder, "albedo", face.albedo, false);
+  writer.layer(folder, "shading", face.shading, true);
+  writer.picture(folder / "normals.exr", face.geometry.normal_cam);
+  writer.drawing(folder / "normals.png", [&face] { return normals_picture(face.geometry); });
+  writer.drawing(folder / "regions.png", [&face] { return regions_picture(face.geometry); });
 }
 
 }  // namespace
@@ -72,25 +103,28 @@ std::map<std::string, std::string> provenance(const io::Photo& photo, const Esti
 
 std::vector<Path> write_outputs(const Path& folder, const Estimate& estimate, const io::Photo& photo,
                                 const EstimateOptions& options, const std::string& source, const OutputOptions& output) {
-  std::vector<Path> written;
-  const io::Attributes attributes = provenance(photo, options);
-  Writer writer{output, attributes, written};
+  Writer writer(output, provenance(photo, options));
   io::create_folder(folder);
   if (estimate.faces.size() == 1) {
-    write_face(folder, estimate, photo, 0, options.threads, writer);
+    add_face(folder, estimate, photo, 0, output, writer);
   } else {
     for (std::size_t i = 0; i < estimate.faces.size(); ++i) {
-      write_face(folder / ("face_" + std::to_string(i + 1)), estimate, photo, i, options.threads, writer);
+      add_face(folder / ("face_" + std::to_string(i + 1)), estimate, photo, i, output, writer);
     }
     if (estimate.joint) {
       io::create_folder(folder / "joint");
       writer.maps(folder / "joint", *estimate.joint);
     }
     writer.maps(folder, estimate.faces[estimate.largest]);
-    if (output.overview) writer.picture(folder / "overview.png", draw_overview(estimate, photo, estimate.largest, options.threads));
+    if (output.overview) {
+      writer.drawing(folder / "overview.png", [&] { return draw_overview(estimate, photo, estimate.largest, 1); });
+    }
   }
+  writer.run(options.threads);
+  // Last, so that a report stands for complete results.
   const Path report = folder / "report.json";
   io::write_file_atomically(report, report_json(estimate, photo, options, source));
+  std::vector<Path> written = std::move(writer).written();
   written.push_back(report);
   return written;
 }

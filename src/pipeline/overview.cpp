@@ -120,7 +120,7 @@ void draw_map(Page& page, const FaceEstimate& face, int x, int y, float exposure
     draw_ring(map, on_map(face.lights[i].direction, kMapWidth, kMapHeight), radius + 3, kLights[i % kLights.size()]);
     draw_ring(map, on_map(face.lights[i].direction, kMapWidth, kMapHeight), radius + 4, kLights[i % kLights.size()]);
   }
-  page.text(x, y + 18, "environment map: centre = behind the camera, left quarter = right of the photo");
+  page.text(x, y + 18, "environment map (centre: behind the camera; left half: right of the photo)");
   paste(page.canvas, map, x, y + kCaption);
 }
 
@@ -173,7 +173,7 @@ void draw_light_list(Page& page, const FaceEstimate& face, int x, int y) {
     const int line = y + 26 + 23 * static_cast<int>(i);
     fill(page.canvas, x, line - 11, 11, 11, kLights[i % kLights.size()]);
     char words[160];
-    std::snprintf(words, sizeof words, "azimuth %+.0f°  elevation %+.0f°   %.0f %% of the energy   %.2f sr   rgb %.2f %.2f %.2f",
+    std::snprintf(words, sizeof words, "azimuth %+.0f, elevation %+.0f deg   %.0f %% of the energy   %.2f sr   rgb %.2f %.2f %.2f",
                   azimuth_deg(light.direction), elevation_deg(light.direction), 100 * light.share, light.solid_angle_sr,
                   light.colour[0], light.colour[1], light.colour[2]);
     page.text(x + 20, line, words, 15, kDim);
@@ -186,12 +186,12 @@ ByteImage draw_overview(const Estimate& estimate, const io::Photo& photo, std::s
   const FaceEstimate& face = estimate.faces.at(index);
   const int top = kMargin + 34;
   const int lower = top + kCaption + kPhotoHeight + kMargin;
-  Page page{ByteImage(kWidth, lower + kCaption + kMapHeight + kMargin, 3)};
+  Page page{ByteImage(kWidth, lower + kCaption + kMapHeight + kMargin + 16, 3)};
   fill(page.canvas, 0, 0, page.canvas.width(), page.canvas.height(), kPaper);
 
   char title[200];
   const Eigen::Vector3d at = face.face.position_m();
-  std::snprintf(title, sizeof title, "face %zu of %zu: %.0f px wide, %.2f m away, turned %+.0f°, tilted %+.0f°", index + 1,
+  std::snprintf(title, sizeof title, "face %zu of %zu: %.0f px wide, %.2f m away, turned %+.0f deg, tilted %+.0f deg", index + 1,
                 estimate.faces.size(), static_cast<double>(face.face.box.width), at.norm(),
                 azimuth_deg(face.face.camera_from_face.rotation().col(2)), elevation_deg(face.face.camera_from_face.rotation().col(2)));
   page.text(kMargin, kMargin + 18, "Faceprobe", 24, kInk, true);

@@ -14,7 +14,7 @@ using testing::light_up;
 struct Problem {
   SphereGrid grid{8};
   Observations face = ellipsoid_face(24);
-  RowMatrix transport = highlight_transport(face, grid);
+  RowMatrix transport = build_transport(face, grid).highlight;
   Eigen::MatrixXf start = Eigen::MatrixXf::Constant(grid.cell_count(), 3, 0.5F);
 };
 
@@ -79,6 +79,21 @@ TEST(RichardsonLucy, LowerBoundsPullUpButNotDown) {
   const RichardsonLucyResult result = richardson_lucy(identity, weight, data, bound, start, {.iterations = 5});
   EXPECT_FLOAT_EQ(result.estimate(0, 0), 3.0F);
   EXPECT_FLOAT_EQ(result.estimate(1, 0), 5.0F);
+}
+
+TEST(RichardsonLucy, PriorHoldsWhatIsHardlyObserved) {
+  // Two unknowns, one row each, the second with a hundredth of the weight. Fixed point of the update with a prior of strength b:
+  // e = (w h + b start) / (w + b).
+  const RowMatrix identity = RowMatrix::Identity(2, 2);
+  Eigen::MatrixXf data(2, 1);
+  data << 4.0F, 4.0F;
+  const Eigen::MatrixXf start = Eigen::MatrixXf::Ones(2, 1);
+  Eigen::VectorXf weight(2);
+  weight << 1.0F, 0.01F;
+  const RichardsonLucyResult result = richardson_lucy(identity, weight, data, {}, start, {.iterations = 30, .prior_weight = 0.1F});
+  const float beta = 0.1F;  // times the median sensitivity, 1
+  EXPECT_NEAR(result.estimate(0, 0), (1.0F * 4 + beta) / (1.0F + beta), 1e-5F);
+  EXPECT_NEAR(result.estimate(1, 0), (0.01F * 4 + beta) / (0.01F + beta), 1e-5F);
 }
 
 TEST(RichardsonLucy, ZeroAndHugeDataStayFinite) {

@@ -21,7 +21,7 @@ TEST(Solve, OneLampComesBackWithinOneCell) {
       Observations face = ellipsoid_face();
       const Eigen::Vector3d truth = grid.direction(grid.cell_of(direction_from_angles(azimuth, elevation).cast<float>())).cast<double>();
       light_up(face, grid, lamp(grid, truth, 1, 0.01F));
-      const Light light = solve(face, {.solver = solver, .iterations = solver == Solver::kPaper ? 200 : 50});
+      const Light light = solve(face, {.solver = solver, .iterations = 200});
       // The exact model: the cell itself or a neighbour, whose centre is at most 5.4 degrees away. The paper's Phong lobe has no
       // Fresnel term, which pulls lights at 70 degrees outwards by several cells.
       EXPECT_LE(angle_between_deg(brightest_direction(light.radiance, grid), truth), solver == Solver::kPaper ? 20 : 5.4)
@@ -87,8 +87,8 @@ TEST(Solve, GainBetweenHighlightsAndShadingIsFound) {
   light_up(face, grid, lamp(grid, {0.4, 0.5, 0.8}, 12, 0.2F));
   face.highlight *= 3.0F;
   const Light light = solve(face, {});
-  // The light it is fitted against is ten smooth iterations of the shading: right in the sum to about a fifth.
-  EXPECT_NEAR(light.highlight_gain, 3.0F, 0.6F);
+  // The light it is fitted against is ten smooth iterations of the shading: right in the sum to about a quarter.
+  EXPECT_NEAR(light.highlight_gain, 3.0F, 0.75F);
 }
 
 TEST(Solve, ConfidenceFallsFromFrontToBack) {

@@ -33,8 +33,9 @@ inline Observations ellipsoid_face(int across = 40) {
 // Fills highlight and shading for a light given per cell; noise is a relative standard deviation.
 inline void light_up(Observations& face, const SphereGrid& grid, const Eigen::MatrixX3f& radiance, float noise = 0,
                      unsigned seed = 1) {
-  face.highlight = highlight_transport(face, grid) * radiance;
-  face.shading = diffuse_transport(face, grid) * radiance;
+  const Transport transport = build_transport(face, grid);
+  face.highlight = transport.highlight * radiance;
+  face.shading = transport.diffuse * radiance;
   std::mt19937 random(seed);
   std::normal_distribution<float> normal(0.0F, noise);
   if (noise <= 0) return;

@@ -10,7 +10,7 @@ namespace {
 TEST(Transport, DiffuseFurnaceIsOne) {
   // A convex surface under uniform radiance 1: shading 1 wherever it faces.
   const SphereGrid grid(16);
-  const RowMatrix rows = diffuse_transport(testing::ellipsoid_face(12), grid);
+  const RowMatrix rows = build_transport(testing::ellipsoid_face(12), grid).diffuse;
   const Eigen::VectorXf sums = rows.rowwise().sum();
   EXPECT_NEAR(sums.minCoeff(), 1.0F, 0.005F);  // cosine over 3072 cells
   EXPECT_NEAR(sums.maxCoeff(), 1.0F, 0.005F);
@@ -23,7 +23,7 @@ TEST(Transport, MirrorLightPeaksInTheMirrorDirection) {
   one.normal.row(0) = direction_from_angles(20, 10).transpose().cast<float>();
   one.view.row(0) = Eigen::RowVector3f(0, 0, 1);
   one.roughness[0] = 0.1F;
-  const RowMatrix rows = highlight_transport(one, grid);
+  const RowMatrix rows = build_transport(one, grid).highlight;
   Eigen::Index best = 0;
   rows.row(0).maxCoeff(&best);
   const Eigen::Vector3d n = one.normal.row(0).transpose().cast<double>();
@@ -40,7 +40,7 @@ TEST(Transport, HorizonCutsWhatItShould) {
   // A wall to the right whose top is 45 degrees up, nothing elsewhere.
   one.horizon.setConstant(1, kHorizonAzimuths, -1e6F);
   for (const int a : {kHorizonAzimuths - 2, kHorizonAzimuths - 1, 0, 1, 2}) one.horizon(0, a) = 1.0F;
-  const RowMatrix rows = diffuse_transport(one, grid);
+  const RowMatrix rows = build_transport(one, grid).diffuse;
   EXPECT_EQ(rows(0, grid.cell_of(Eigen::Vector3f(1, 0, 0.7F))), 0.0F);
   EXPECT_GT(rows(0, grid.cell_of(Eigen::Vector3f(1, 0, 1.6F))), 0.0F);
   EXPECT_GT(rows(0, grid.cell_of(Eigen::Vector3f(-1, 0, 0.7F))), 0.0F);
@@ -49,16 +49,16 @@ TEST(Transport, HorizonCutsWhatItShould) {
 TEST(Transport, SameForAnyNumberOfThreads) {
   const SphereGrid grid(4);
   const Observations face = testing::ellipsoid_face(12);
-  EXPECT_TRUE(highlight_transport(face, grid, 1) == highlight_transport(face, grid, 3));
+  EXPECT_TRUE(build_transport(face, grid, 1).highlight == build_transport(face, grid, 3).highlight);
 }
 
 TEST(Transport, RefusesBrokenObservations) {
   Observations face = testing::ellipsoid_face(8);
   face.roughness[0] = 0.0F;
-  EXPECT_THROW(diffuse_transport(face, SphereGrid(2)), std::invalid_argument);
+  EXPECT_THROW(build_transport(face, SphereGrid(2)), std::invalid_argument);
   face = testing::ellipsoid_face(8);
   face.highlight(0, 0) = std::nanf("");
-  EXPECT_THROW(diffuse_transport(face, SphereGrid(2)), std::invalid_argument);
+  EXPECT_THROW(build_transport(face, SphereGrid(2)), std::invalid_argument);
 }
 
 }  // namespace

@@ -38,6 +38,9 @@ struct SolveOptions {
   bool fit_highlight_gain = true;
   // Diffuse light that a separator left in the highlights, per unit of shading; fitted, never more than this. 0 = none.
   float max_leak = 0.2F;
+  // Pull of every cell towards the mean level, in units of a typical cell's sensitivity: what only a few grazing patches see
+  // stays near the mean instead of soaking up their errors.
+  float prior_weight = 0.05F;
   // Steps of the per-channel stage that colours the luminance solution; few keep the colour smooth over the sphere.
   int colour_iterations = 6;
   int threads = 0;

@@ -7,6 +7,12 @@
 // Estimates stay non-negative, the weighted sum of the predictions equals that of the data after every step, and the likelihood
 // never falls. Observations that are only lower bounds (clipped pixels) pull upwards while p_i < h_i and are silent after.
 //
+// With prior_weight = beta > 0 every column also has a gamma prior whose mode is its start value (the posterior's EM step):
+//
+//   e_j <- ( e_j sum_i a_i T_ij h_i / p_i + beta e_j^start ) / ( sum_i a_i T_ij + beta )
+//
+// so that a column which the data hardly reach stays near its start instead of soaking up what nothing else explains.
+//
 // Not for signed data or signed transport.
 
 #include "faceprobe/lighting/transport.h"
@@ -21,6 +27,8 @@ struct RichardsonLucyOptions {
   int iterations = 50;
   // Columns whose sum of a_i T_ij is below this share of the largest are left at the start value: nothing observes them.
   float unobserved_share = 1e-3F;
+  // Strength of the prior, in units of the median sensitivity of the observed columns; 0 = plain Richardson-Lucy.
+  float prior_weight = 0.0F;
   bool track_likelihood = false;  // costs a logarithm per observation and iteration
   int threads = 0;
 
@@ -30,7 +38,7 @@ struct RichardsonLucyOptions {
 struct RichardsonLucyResult {
   Eigen::MatrixXf estimate;            // #columns x #channels
   Eigen::VectorXf sensitivity;         // #columns: sum_i a_i T_ij
-  std::vector<double> log_likelihood;  // one before each step and one after the last: sum a (h log p - p), all channels
+  std::vector<double> log_likelihood;  // before each step and after the last: sum a (h log p - p), prior left out
 };
 
 // `transport`: #rows x #columns, >= 0. `weight`: #rows. `observed`: #rows x #channels, >= 0. `lower_bound`: the same shape, or

@@ -15,7 +15,12 @@ namespace faceprobe::lighting {
 
 using RowMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-RowMatrix highlight_transport(const Observations& observations, const SphereGrid& grid, int threads = 0);
-RowMatrix diffuse_transport(const Observations& observations, const SphereGrid& grid, int threads = 0);
+struct Transport {
+  RowMatrix highlight;  // S, #patches x #cells
+  RowMatrix diffuse;    // D, #patches x #cells
+};
+
+// Both at once, which halves the visibility tests. Throws std::invalid_argument for observations that do not validate.
+Transport build_transport(const Observations& observations, const SphereGrid& grid, int threads = 0);
 
 }  // namespace faceprobe::lighting
