@@ -32,17 +32,28 @@ struct Estimator {
 std::vector<Estimator> estimators() {
   lighting::SolveOptions paper;
   paper.solver = lighting::Solver::kPaper;
-  lighting::SolveOptions shading;
+  // Everything is known here, so nothing is fitted and no prior is needed.
+  lighting::SolveOptions exact;
+  exact.fit_highlight_gain = false;
+  exact.max_leak = 0;
+  exact.prior_weight = 0;
+  lighting::SolveOptions shading = exact;
   shading.highlight_weight = 0;
-  lighting::SolveOptions highlights;
+  lighting::SolveOptions highlights = exact;
+  highlights.highlight_weight = 1;
   highlights.shading_weight = 0;
-  highlights.fit_highlight_gain = false;
-  highlights.max_leak = 0;
   lighting::SolveOptions longer = highlights;
   longer.iterations = 150;
-  return {{"highlights traced, no deconvolution", paper, true}, {"paper solver, 50 iterations", paper},
-          {"shading alone, 50 iterations", shading},             {"transport, highlights only, 50 iterations", highlights},
-          {"transport, highlights only, 150 iterations", longer}, {"transport, default (both)", {}}};
+  lighting::SolveOptions both = exact;
+  both.highlight_weight = 1;
+  both.shading_weight = 0.1F;
+  return {{"highlights traced, no deconvolution", paper, true},
+          {"paper solver, 50 iterations", paper},
+          {"shading alone, 50 iterations", shading},
+          {"transport, highlights only, 50 iterations", highlights},
+          {"transport, highlights only, 150 iterations", longer},
+          {"transport, highlights 10 : shading 1", both},
+          {"transport, defaults (for rough layers)", {}}};
 }
 
 void add_noise(Eigen::MatrixX3f& values, float sigma, std::mt19937& random) {

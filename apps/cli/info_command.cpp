@@ -1,5 +1,6 @@
 #include "commands.h"
 #include "faceprobe/core/angles.h"
+#include "faceprobe/core/error.h"
 #include "shared_options.h"
 
 #include <nlohmann/json.hpp>
@@ -75,7 +76,7 @@ int run(const Options& options) {
       }
       return 0;
     });
-    if (one != 0) code = one;
+    if (one != 0) code = options.inputs.size() > 1 ? static_cast<int>(ExitCode::kBatchFailures) : one;
   }
   return code;
 }

@@ -7,11 +7,33 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <fcntl.h>
 #include <csignal>
+#include <cstdio>
 #include <string>
+
+namespace {
+
+// A program that is started with stdout or stderr closed would open its first output file under that number, and its log would go
+// into the file. What is opened in their place refuses writing, so that lost data is still noticed.
+void occupy_standard_streams() {
+  for (int stream = 0; stream <= 2; ++stream) {
+    if (::fcntl(stream, F_GETFD) == -1) ::open("/dev/null", stream == 0 ? O_WRONLY : O_RDONLY);
+  }
+}
+
+// A report that did not arrive is a failure, however well the photos went.
+int with_stdout_written(int code) {
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+  throw faceprobe::Error(faceprobe::ExitCode::kOutput,
+                         "The standard output cannot be written: it is closed, or its disk is full.");
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   using namespace faceprobe;
+  occupy_standard_streams();
   std::signal(SIGPIPE, SIG_DFL);  // `faceprobe ... | head` ends quietly
   spdlog::set_default_logger(spdlog::stderr_color_st("faceprobe"));
   spdlog::set_pattern("%^%l%$: %v");
@@ -35,5 +57,5 @@ int main(int argc, char** argv) {
     return program.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::kUsage);
   }
   if (quiet) spdlog::set_level(spdlog::level::err);
-  return cli::run_guarded(action);
+  return cli::run_guarded([&action] { return with_stdout_written(action()); });
 }

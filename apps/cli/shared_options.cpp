@@ -75,14 +75,14 @@ Eigen::MatrixX2f parse_landmarks(const std::string& text) {
 int parse_map_width(const std::string& text) {
   const std::size_t cross = text.find('x');
   const int width = whole_number(text.substr(0, cross), "--size");
-  if (cross != std::string::npos && 2 * whole_number(text.substr(cross + 1), "--size") != width) {
+  if (cross != std::string::npos && 2LL * whole_number(text.substr(cross + 1), "--size") != width) {
     throw Error(ExitCode::kUsage, "--size " + text + ": an environment map is twice as wide as high.");
   }
   return width;
 }
 
 pipeline::EstimateOptions estimate_options(const SharedOptions& options) {
-  if (options.device.rfind("cuda", 0) == 0) {
+  if (options.device == "cuda" || options.device.rfind("cuda:", 0) == 0) {
     throw Error(ExitCode::kDevice, "--device " + options.device +
                                        " is not there: this version computes on the processor only. Use --device auto or cpu.");
   }
@@ -109,15 +109,19 @@ pipeline::EstimateOptions estimate_options(const SharedOptions& options) {
 
 std::string folder_for(const std::string& output, const SharedOptions& options, std::size_t input) {
   if (options.inputs.size() == 1) return output;
-  // Two photos of one name get the input's number behind it.
-  const std::filesystem::path path(options.inputs[input]);
-  std::string name = path.stem().string();
-  for (std::size_t other = 0; other < options.inputs.size(); ++other) {
-    if (other != input && std::filesystem::path(options.inputs[other]).stem() == path.stem()) {
-      name += "_" + std::to_string(input + 1);
-      break;
+  const auto stem_of = [&](std::size_t i) {
+    const std::string stem = std::filesystem::path(options.inputs[i]).stem().string();
+    return stem == "." || stem == ".." ? "photo" : stem;  // of "..jpg" and "...jpg", which would lead out of the folder
+  };
+  // Where another photo has the name, the input's number goes behind it, until no photo has it.
+  const auto taken = [&](const std::string& name) {
+    for (std::size_t other = 0; other < options.inputs.size(); ++other) {
+      if (other != input && stem_of(other) == name) return true;
     }
-  }
+    return false;
+  };
+  std::string name = stem_of(input);
+  while (taken(name)) name += "_" + std::to_string(input + 1);
   return (std::filesystem::path(output) / name).string();
 }
 

@@ -12,7 +12,7 @@ namespace faceprobe::cli {
 
 struct SharedOptions {
   std::vector<std::string> inputs;
-  std::string separator = "shen";
+  std::string separator = "yang";
   std::string solver = "transport";
   std::string landmarks;
   std::string geometry = "mesh";

@@ -35,7 +35,7 @@ MeshReading MeshNetwork::read(const Sampler& photo, const SquareRegion& square) 
 }
 
 MeshReading MeshNetwork::read_refined(const Sampler& photo, const SquareRegion& square) {
-  const MeshReading first = read(photo, square);
+  MeshReading first = read(photo, square);
   const SquareRegion again = mesh_region(first.landmarks_px);
   if (!first.landmarks_px.allFinite() || !(again.side > 0)) return first;
   return read(photo, again);

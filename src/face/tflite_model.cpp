@@ -4,6 +4,7 @@
 
 #include <tensorflow/lite/c/c_api.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <fstream>
@@ -74,8 +75,8 @@ TfliteModel::TfliteModel(const std::filesystem::path& path, const std::vector<in
   }
   if (TfLiteInterpreterGetInputTensorCount(impl_->interpreter.get()) != 1) impl_->fail("has more than one input");
   const TfLiteTensor* tensor = TfLiteInterpreterGetInputTensor(impl_->interpreter.get(), 0);
-  std::vector<int> shape;
-  for (int i = 0; i < TfLiteTensorNumDims(tensor); ++i) shape.push_back(TfLiteTensorDim(tensor, i));
+  std::vector<int> shape(static_cast<std::size_t>(std::max(0, TfLiteTensorNumDims(tensor))));
+  for (std::size_t i = 0; i < shape.size(); ++i) shape[i] = TfLiteTensorDim(tensor, static_cast<int>(i));
   if (TfLiteTensorType(tensor) != kTfLiteFloat32 || shape != input_shape) {
     impl_->fail("takes a tensor of " + shape_text(shape) + " instead of float " + shape_text(input_shape));
   }

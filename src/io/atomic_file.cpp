@@ -47,11 +47,14 @@ class Temporary {
     constexpr int kAttempts = 100;
     // Long names are cut: the temporary name must not exceed what the file system allows when the target's does not.
     const std::string stem = target.stem().string().substr(0, 100);
+    const std::string extension = target.extension().string();
     std::random_device random;
     for (int attempt = 0; attempt < kAttempts && fd_ < 0; ++attempt) {
-      std::string tag;
-      for (int i = 0; i < 8; ++i) tag += kLetters[random() % (sizeof(kLetters) - 1)];
-      path_ = folder_of(target) / ("." + stem + "." + tag + ".tmp" + target.extension().string());
+      std::string name = ".";
+      name.append(stem).append(".");
+      for (int i = 0; i < 8; ++i) name += kLetters[random() % (sizeof(kLetters) - 1)];
+      name.append(".tmp").append(extension);
+      path_ = folder_of(target) / name;
       fd_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);  // the process's umask applies
       if (fd_ < 0 && errno != EEXIST) fail(target, system_reason(errno));
     }

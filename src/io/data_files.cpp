@@ -24,7 +24,7 @@ std::vector<fs::path> data_folders() {
 fs::path data_file(const std::string& name) {
   std::string searched;
   for (const fs::path& folder : data_folders()) {
-    const fs::path candidate = folder / name;
+    fs::path candidate = folder / name;
     std::error_code error;
     if (fs::is_regular_file(candidate, error)) return candidate;
     searched += (searched.empty() ? "" : ", ") + folder.string();

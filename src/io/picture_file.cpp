@@ -73,6 +73,8 @@ void write_exr(const std::filesystem::path& path, const Image& image, const Attr
   const OIIO::TypeDesc type = half_float ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT;
   OIIO::ImageSpec spec = make_spec(image.width(), image.height(), image.channels(), type, attributes);
   spec.attribute("compression", kExrCompression);
+  // OpenImageIO would write the present time as the time of capture: it is not, and the same picture would give another file.
+  spec.attribute("DateTime", "");
   if (image.channels() >= 3) {
     constexpr float kRec709[8] = {0.64F, 0.33F, 0.30F, 0.60F, 0.15F, 0.06F, 0.3127F, 0.3290F};
     spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), kRec709);

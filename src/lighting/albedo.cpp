@@ -53,7 +53,8 @@ void box_blur(Image& image, int radius, bool along_rows) {
 
 }  // namespace
 
-AlbedoModel fit_albedo(const Image& diffuse, const ByteImage& skin_region, const ByteImage& clipped) {
+AlbedoModel fit_albedo(const Image& diffuse, const ByteImage& skin_region, const ByteImage& clipped,
+                       bool grey) {
   if (!diffuse.same_size(skin_region) || !diffuse.same_size(clipped) || diffuse.channels() != 3) {
     throw std::invalid_argument("Albedo needs a three-channel diffuse layer and region and clip maps of its size.");
   }
@@ -70,7 +71,8 @@ AlbedoModel fit_albedo(const Image& diffuse, const ByteImage& skin_region, const
     }
   }
   AlbedoModel model;
-  const Eigen::Array3d prior_skin(std::exp(kSkinLogRatio[0]), 1.0, std::exp(kSkinLogRatio[1]));
+  const Eigen::Array3d prior_skin =
+      grey ? Eigen::Array3d::Ones().eval() : Eigen::Array3d(std::exp(kSkinLogRatio[0]), 1.0, std::exp(kSkinLogRatio[1]));
   model.light_colour.setOnes();
   model.region_albedo.fill(with_luminance(prior_skin, kSkinLuminance));
   if (all.count < 1 || !(all.sum.minCoeff() > 0)) return model;
@@ -78,7 +80,9 @@ AlbedoModel fit_albedo(const Image& diffuse, const ByteImage& skin_region, const
   // log(product) = log(light) + log(skin); posterior mean of the first under two independent normal priors.
   const Eigen::Array2d found(std::log(all.sum[0] / all.sum[1]), std::log(all.sum[2] / all.sum[1]));
   constexpr double kLightVariance = kWhiteBalanceSigma * kWhiteBalanceSigma;
-  const Eigen::Array2d log_light = (found - kSkinLogRatio) * (kLightVariance / (kLightVariance + kSkinSigma * kSkinSigma));
+  const Eigen::Array2d log_light =
+      grey ? Eigen::Array2d::Zero().eval()
+           : ((found - kSkinLogRatio) * (kLightVariance / (kLightVariance + kSkinSigma * kSkinSigma))).eval();
   const Eigen::Array3d light(std::exp(log_light[0]), 1.0, std::exp(log_light[1]));
   model.light_colour = light.matrix().cast<float>();
   for (std::size_t r = 0; r < regions.size(); ++r) {

@@ -53,9 +53,9 @@ std::string MainLightOptions::validate() const {
 }
 
 std::vector<MainLight> main_lights(const Eigen::MatrixX3f& radiance, const SphereGrid& grid,
-                                   const MainLightOptions& options) {
+                                   const MainLightOptions& options, const Eigen::VectorXf& confidence) {
   if (const std::string fault = options.validate(); !fault.empty()) throw std::invalid_argument(fault);
-  if (radiance.rows() != grid.cell_count()) throw std::invalid_argument("Main lights need one radiance per cell.");
+  if (radiance.rows() != grid.cell_count() || (confidence.size() > 0 && confidence.size() != radiance.rows())) throw std::invalid_argument("Main lights need one radiance, and one confidence or none, per cell.");
   const Eigen::VectorXd level = luminance_of(radiance);
   const double energy = level.sum() * grid.cell_solid_angle();
   if (!(energy > 0)) return {};
@@ -80,7 +80,8 @@ std::vector<MainLight> main_lights(const Eigen::MatrixX3f& radiance, const Spher
       if (suppressed[static_cast<std::size_t>(j)] && smooth[j] > smooth[cell]) local_maximum = false;
       suppressed[static_cast<std::size_t>(j)] = 1;
     }
-    if (local_maximum) peaks.push_back(cell);
+    const bool certain = confidence.size() == 0 || confidence[cell] >= static_cast<float>(options.min_confidence);
+    if (local_maximum && certain) peaks.push_back(cell);
   }
 
   std::vector<MainLight> lights;

@@ -48,12 +48,13 @@ RichardsonLucyOptions rl_options(const SolveOptions& options, int iterations) {
 // alone gives. That light is blurred, which moves energy around but hardly changes its sum, so sums are what is compared.
 void fit_highlights(const Observations& o, const RowMatrix& highlight_rows, const RowMatrix& shading_rows,
                     const SolveOptions& options, float level, Light& light, Eigen::MatrixX3f& highlight) {
-  constexpr int kSmoothIterations = 10;
+  constexpr int kSmoothIterations = 40;
   const Eigen::VectorXf shading = o.shading * kLuminance;
   const Eigen::MatrixXf start = Eigen::MatrixXf::Constant(shading_rows.cols(), 1, level);
   const Flags bound = o.clipped.rowwise().any();
-  const RichardsonLucyResult smooth =
-      richardson_lucy(shading_rows, o.weight, shading, bound, start, rl_options(options, kSmoothIterations));
+  RichardsonLucyOptions plain = rl_options(options, kSmoothIterations);
+  plain.prior_weight = 0;  // which keeps the flux, and that is all that counts here
+  const RichardsonLucyResult smooth = richardson_lucy(shading_rows, o.weight, shading, bound, start, plain);
   const Eigen::VectorXf expected = highlight_rows * smooth.estimate.col(0);
   // Clipped pixels say neither how bright nor how leaky; with all clipped there is nothing to fit.
   Eigen::VectorXf weight = o.weight;
@@ -130,6 +131,21 @@ Eigen::MatrixX3f coloured(const Rows& rows, const Eigen::VectorXf& level, const 
   return radiance;
 }
 
+// The median over the better observed half of the cells after a few free steps: what is there between the lights.
+Eigen::RowVectorXf ambient_level(const Rows& rows, const Eigen::MatrixXf& luminance, const Flags& bound,
+                                 const Eigen::MatrixXf& start, const SolveOptions& options) {
+  constexpr int kFreeIterations = 15;
+  RichardsonLucyOptions rl = rl_options(options, kFreeIterations);
+  rl.prior_weight = 0;
+  const RichardsonLucyResult free = richardson_lucy(rows.transport, rows.weight, luminance, bound, start, rl);
+  const float typical = quantile({free.sensitivity.begin(), free.sensitivity.end()}, 0.5);
+  std::vector<float> levels;
+  for (Eigen::Index j = 0; j < free.sensitivity.size(); ++j) {
+    if (free.sensitivity[j] >= typical) levels.push_back(free.estimate(j, 0));
+  }
+  return Eigen::RowVectorXf::Constant(1, quantile(levels, 0.5));
+}
+
 // Cells that hardly anything observes take the ambient level: the median of what is observed well.
 void fill_unobserved(const Eigen::VectorXf& sensitivity, Light& light) {
   // Relative to a typical observed cell: the largest sensitivities belong to grazing mirror angles and say little of the rest.
@@ -181,8 +197,10 @@ Light solve_transport(const Observations& observations, const SolveOptions& opti
   const Rows rows = stack(observations, highlight_rows, shading_rows, highlight, options);
   const Eigen::MatrixXf start = Eigen::MatrixXf::Constant(grid.cell_count(), 1, level);
   const Flags bound = rows.bound.rowwise().any();
-  const RichardsonLucyResult solved = richardson_lucy(rows.transport, rows.weight, rows.data * kLuminance, bound, start,
-                                                      rl_options(options, options.iterations));
+  const Eigen::MatrixXf luminance = rows.data * kLuminance;
+  RichardsonLucyOptions rl = rl_options(options, options.iterations);
+  if (options.prior_weight > 0) rl.prior_level = ambient_level(rows, luminance, bound, start, options);
+  const RichardsonLucyResult solved = richardson_lucy(rows.transport, rows.weight, luminance, bound, start, rl);
   light.radiance = coloured(rows, solved.estimate.col(0), options);
   fill_unobserved(solved.sensitivity, light);
   return light;

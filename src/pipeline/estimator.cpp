@@ -63,7 +63,7 @@ FaceEstimate Estimator::Impl::analyse(const io::Photo& photo, const face::Camera
   out.layers = highlight::separate(out.picture, skin, separate);
   watch.lap("highlights");
 
-  const lighting::AlbedoModel albedo = lighting::fit_albedo(out.layers.diffuse, skin, out.clipped);
+  const lighting::AlbedoModel albedo = lighting::fit_albedo(out.layers.diffuse, skin, out.clipped, photo.grey);
   out.light_colour = albedo.light_colour;
   out.albedo = lighting::albedo_picture(albedo, skin);
   out.shading = divide(out.layers.diffuse, out.albedo, skin);

@@ -22,7 +22,7 @@ LightResult light_result(lighting::Light light, const EstimateOptions& options) 
   result.confidence = env_map_from_grid(confidence, grid, options.map_width, options.map_width / 2);
   for (float& value : result.confidence.radiance().values()) value = std::min(1.0F, value);
   result.sh = sh::project(resize(result.environment, 128, 64), options.sh_order);
-  result.lights = lighting::main_lights(light.radiance, grid, options.main_lights);
+  result.lights = lighting::main_lights(light.radiance, grid, options.main_lights, light.confidence);
   result.light = std::move(light);
   return result;
 }

@@ -49,6 +49,13 @@ TEST(Albedo, ShadingKeepsTheGradientThatRegionsCannotExplain) {
   EXPECT_NEAR(bottom / top, 1.05F / 0.55F, 0.02F);
 }
 
+TEST(Albedo, GreyPhotoHasGreyLight) {
+  const Face face = face_of_colour({1, 1, 1});
+  const AlbedoModel model = fit_albedo(face.diffuse, face.region, face.clipped, true);
+  EXPECT_TRUE(model.light_colour.isOnes(1e-6F));
+  EXPECT_NEAR(model.region_albedo[0][0], model.region_albedo[0][2], 1e-5F);
+}
+
 TEST(Albedo, NothingUsableGivesThePriorNotNan) {
   Face face = face_of_colour({0, 0, 0});
   EXPECT_TRUE(fit_albedo(face.diffuse, face.region, face.clipped).region_albedo[0].allFinite());

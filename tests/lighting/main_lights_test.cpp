@@ -35,6 +35,17 @@ TEST(MainLights, SeveralComeByStrengthAndTwinsMerge) {
   EXPECT_GT(lights[0].irradiance, lights[1].irradiance);
 }
 
+TEST(MainLights, PeaksThatNothingObservedAreNoLights) {
+  const SphereGrid grid(8);
+  const Eigen::MatrixX3f map = lamp(grid, direction_from_angles(60, 20), 10, 0.02F) + lamp(grid, direction_from_angles(-150, 0), 10, 0.0F);
+  Eigen::VectorXf confidence = Eigen::VectorXf::Ones(grid.cell_count());
+  for (int j = 0; j < grid.cell_count(); ++j) confidence[j] = grid.direction(j).z() > 0 ? 1.0F : 0.1F;
+  EXPECT_EQ(main_lights(map, grid).size(), 2U);
+  const std::vector<MainLight> lights = main_lights(map, grid, {}, confidence);
+  ASSERT_EQ(lights.size(), 1U);
+  EXPECT_NEAR(azimuth_deg(lights[0].direction), 60, 4);
+}
+
 TEST(MainLights, EvenLightAndDarknessHaveNone) {
   const SphereGrid grid(8);
   EXPECT_TRUE(main_lights(Eigen::MatrixX3f::Constant(grid.cell_count(), 3, 0.7F), grid).empty());

@@ -82,18 +82,18 @@ TEST(RichardsonLucy, LowerBoundsPullUpButNotDown) {
 }
 
 TEST(RichardsonLucy, PriorHoldsWhatIsHardlyObserved) {
-  // Two unknowns, one row each, the second with a hundredth of the weight. Fixed point of the update with a prior of strength b:
-  // e = (w h + b start) / (w + b).
-  const RowMatrix identity = RowMatrix::Identity(2, 2);
-  Eigen::MatrixXf data(2, 1);
-  data << 4.0F, 4.0F;
-  const Eigen::MatrixXf start = Eigen::MatrixXf::Ones(2, 1);
-  Eigen::VectorXf weight(2);
-  weight << 1.0F, 0.01F;
+  // Three unknowns, one row each; the median weight is 1. A column of weight w < 1 has beta = b (1 - w) and the fixed point
+  // e = (w h + beta start) / (w + beta); the others follow their data.
+  const RowMatrix identity = RowMatrix::Identity(3, 3);
+  const Eigen::MatrixXf data = Eigen::MatrixXf::Constant(3, 1, 4.0F);
+  const Eigen::MatrixXf start = Eigen::MatrixXf::Ones(3, 1);
+  Eigen::VectorXf weight(3);
+  weight << 1.0F, 0.01F, 2.0F;
   const RichardsonLucyResult result = richardson_lucy(identity, weight, data, {}, start, {.iterations = 30, .prior_weight = 0.1F});
-  const float beta = 0.1F;  // times the median sensitivity, 1
-  EXPECT_NEAR(result.estimate(0, 0), (1.0F * 4 + beta) / (1.0F + beta), 1e-5F);
+  const float beta = 0.1F * 0.99F;
+  EXPECT_NEAR(result.estimate(0, 0), 4.0F, 1e-5F);
   EXPECT_NEAR(result.estimate(1, 0), (0.01F * 4 + beta) / (0.01F + beta), 1e-5F);
+  EXPECT_NEAR(result.estimate(2, 0), 4.0F, 1e-5F);
 }
 
 TEST(RichardsonLucy, ZeroAndHugeDataStayFinite) {

@@ -14,6 +14,15 @@ using testing::ellipsoid_face;
 using testing::lamp;
 using testing::light_up;
 
+// What the layers here deserve: they are exact.
+SolveOptions for_exact_layers(int iterations = 50) {
+  SolveOptions options;
+  options.highlight_weight = 1;
+  options.prior_weight = 0;
+  options.iterations = iterations;
+  return options;
+}
+
 TEST(Solve, OneLampComesBackWithinOneCell) {
   const SphereGrid grid(16);
   for (const Solver solver : {Solver::kTransport, Solver::kPaper}) {
@@ -21,7 +30,9 @@ TEST(Solve, OneLampComesBackWithinOneCell) {
       Observations face = ellipsoid_face();
       const Eigen::Vector3d truth = grid.direction(grid.cell_of(direction_from_angles(azimuth, elevation).cast<float>())).cast<double>();
       light_up(face, grid, lamp(grid, truth, 1, 0.01F));
-      const Light light = solve(face, {.solver = solver, .iterations = 200});
+      SolveOptions options = for_exact_layers(200);
+      options.solver = solver;
+      const Light light = solve(face, options);
       // The exact model: the cell itself or a neighbour, whose centre is at most 5.4 degrees away. The paper's Phong lobe has no
       // Fresnel term, which pulls lights at 70 degrees outwards by several cells.
       EXPECT_LE(angle_between_deg(brightest_direction(light.radiance, grid), truth), solver == Solver::kPaper ? 20 : 5.4)
@@ -111,7 +122,9 @@ TEST(Solve, ClippedPixelsAreBoundsNotData) {
   believed.highlight = face.highlight.cwiseMin(limit);
   Observations marked = believed;
   marked.clipped = face.highlight.array() > limit;
-  const auto peak = [&](const Observations& o) { return solve(o, {.shading_weight = 0.05F}).radiance.maxCoeff(); };
+  SolveOptions options = for_exact_layers();
+  options.shading_weight = 0.05F;
+  const auto peak = [&](const Observations& o) { return solve(o, options).radiance.maxCoeff(); };
   EXPECT_GT(peak(marked), 1.3F * peak(believed));
 }
 

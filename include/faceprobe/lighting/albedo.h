@@ -21,8 +21,9 @@ struct AlbedoModel {
 inline constexpr float kSkinLuminance = 0.35F;  // assumed mean diffuse albedo; a photo does not tell its exposure
 
 // `diffuse`: H x W x 3 linear. `skin_region`: H x W x 1, 1 + SkinRegion where skin, 0 elsewhere. `clipped`: H x W x 1, non-zero
-// pixels are left out. A face without any usable skin pixel gets the prior's mean.
-AlbedoModel fit_albedo(const Image& diffuse, const ByteImage& skin_region, const ByteImage& clipped);
+// pixels are left out. A face without any usable skin pixel gets the prior's mean. `grey`: the photo has no colour, so skin and light
+// are taken as grey.
+AlbedoModel fit_albedo(const Image& diffuse, const ByteImage& skin_region, const ByteImage& clipped, bool grey = false);
 // H x W x 3: the region's albedo at each skin pixel, blurred across borders; the overall skin mean elsewhere.
 Image albedo_picture(const AlbedoModel& model, const ByteImage& skin_region);
 

@@ -31,16 +31,18 @@ struct SolveOptions {
   Solver solver = Solver::kTransport;
   int nside = 16;         // of the sphere grid the light is solved on: 3072 cells
   int iterations = 50;    // Richardson-Lucy; 20 - 50 is the knee for noisy data
-  // Transport solver only. Influence of all highlight rows and of all shading rows on the estimate; 0 leaves a kind out.
-  float highlight_weight = 1.0F;
+  // Transport solver only. Influence of all highlight rows and of all shading rows on the estimate; 0 leaves a kind out. The
+  // defaults suit layers from the classical separators, whose highlights are rough (bench_direction); with exact layers the
+  // highlights deserve more than the shading (bench_best_case).
+  float highlight_weight = 0.3F;
   float shading_weight = 1.0F;
   // Fit one gain between highlights and shading (specular albedo and skin albedo are known only up to a factor each).
   bool fit_highlight_gain = true;
   // Diffuse light that a separator left in the highlights, per unit of shading; fitted, never more than this. 0 = none.
   float max_leak = 0.2F;
-  // Pull of every cell towards the mean level, in units of a typical cell's sensitivity: what only a few grazing patches see
-  // stays near the mean instead of soaking up their errors.
-  float prior_weight = 0.05F;
+  // Pull of weakly observed cells towards the ambient level, see RichardsonLucyOptions: what only a few grazing patches see
+  // stays near the level of the well observed cells' median instead of soaking up the patches' errors.
+  float prior_weight = 0.03F;
   // Steps of the per-channel stage that colours the luminance solution; few keep the colour smooth over the sphere.
   int colour_iterations = 6;
   int threads = 0;

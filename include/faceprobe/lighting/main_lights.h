@@ -25,12 +25,13 @@ struct MainLightOptions {
   double blur_deg = 4;         // the map is smoothed by a Gaussian of this width first, so that single cells do not win
   double min_share = 0.02;     // of the energy; weaker peaks are texture
   double min_contrast = 1.5;   // peak over the median radiance of the map
+  double min_confidence = 0.3; // of the peak's cell, where confidences are given
 
   std::string validate() const;
 };
 
-// Lights by falling irradiance; empty for an even sky. `radiance`: #cells x 3.
+// Lights by falling irradiance; empty for an even sky. `radiance`: #cells x 3. `confidence`: #cells, or empty for all certain.
 std::vector<MainLight> main_lights(const Eigen::MatrixX3f& radiance, const SphereGrid& grid,
-                                   const MainLightOptions& options = {});
+                                   const MainLightOptions& options = {}, const Eigen::VectorXf& confidence = {});
 
 }  // namespace faceprobe::lighting

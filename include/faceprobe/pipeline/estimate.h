@@ -34,7 +34,7 @@ namespace faceprobe::pipeline {
 
 struct EstimateOptions {
   face::FinderOptions finder;
-  highlight::Separator separator = highlight::Separator::kShen;
+  highlight::Separator separator = highlight::Separator::kYang;  // smoothest on skin; see docs/results.md
   lighting::SolveOptions solve;
   lighting::MainLightOptions main_lights;
   // Focal length in pixels of the photo; unset = from EXIF, else a 50 mm lens on a 36 x 24 mm frame (a common portrait view).

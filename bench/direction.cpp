@@ -1,0 +1,45 @@
+// bench_direction --data DIR [--every N] [--set yale|london]: how well known light directions come back from real faces.
+// DIR/real/yaleB holds faces under one flash each, whose direction the database gives; DIR/real/portraits/london the same three
+// studio lights on every person, measured from the reflections in their eyes. Prints one Markdown table per set.
+
+#include "direction/direction.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <string>
+
+int main(int argc, char** argv) {
+  CLI::App app("Angles between estimated and known lights");
+  std::string data;
+  std::string set = "all";
+  int every = 3;
+  app.add_option("--data", data, "data folder (docs/data.md)")->required();
+  app.add_option("--every", every, "use every n-th flash picture and every n-th person only")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  app.add_option("--set", set, "yale, london or all")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"yale", "london", "all"}));
+  CLI11_PARSE(app, argc, argv);
+  try {
+    const std::filesystem::path real = std::filesystem::path(data) / "real";
+    for (const char* folder : {"yaleB", "portraits/london"}) {
+      const bool yale = folder == std::string("yaleB");
+      if (set != "all" && (set == "yale") != yale) continue;
+      if (!std::filesystem::is_directory(real / folder)) {
+        std::printf("real/%s is not in the data folder; skipped.\n", folder);
+      } else if (yale) {
+        faceprobe::bench::report_yale(real / folder, every);
+      } else {
+        faceprobe::bench::report_london(real / folder, every);
+      }
+    }
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << '\n';
+    return 2;
+  }
+  return 0;
+}

@@ -1,0 +1,13 @@
+#pragma once
+// The two halves of bench_direction; each prints its Markdown tables.
+
+#include <filesystem>
+
+namespace faceprobe::bench {
+
+// Extended Yale B: one flash of known direction at a time, grey pictures, landmarks given.
+void report_yale(const std::filesystem::path& folder, int every);
+// London: the same three studio lights, measured, on every person.
+void report_london(const std::filesystem::path& folder, int every);
+
+}  // namespace faceprobe::bench

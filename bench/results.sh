@@ -1,0 +1,116 @@
+#!/usr/bin/env bash
+# Measures everything and writes docs/results.md. Each section stands between HTML comments, so that one can be measured again
+# without touching the others.
+#
+#   bench/results.sh --data DIR [BUILD_DIR]
+#   bench/results.sh --data DIR --only direction [BUILD_DIR]     one of: best_case separation robustness direction speed
+#
+# BUILD_DIR (build/release) is built with FACEPROBE_BUILD_BENCH=ON. Ends with 1 when a benchmark misses its bar; its section is
+# written all the same.
+set -euo pipefail
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+sections=(best_case separation robustness direction speed)
+data=
+only=
+build=$root/build/release
+while [ $# -gt 0 ]; do
+  case $1 in
+    --data) data=${2:?--data takes a folder}; shift ;;
+    --only) only=${2:?--only takes a section}; shift ;;
+    -*) echo "unknown option $1; there are --data and --only." >&2; exit 2 ;;
+    *) build=$1 ;;
+  esac
+  shift
+done
+[ -d "$data" ] || { echo "--data must name the data folder that docs/data.md describes." >&2; exit 2; }
+if [ -n "$only" ] && [[ " ${sections[*]} " != *" $only "* ]]; then
+  echo "--only takes one of: ${sections[*]}; found '$only'." >&2
+  exit 2
+fi
+data=$(cd "$data" && pwd)
+build=$(cd "$build" && pwd)
+results=$root/docs/results.md
+
+title_of() {
+  case $1 in
+    best_case) echo "Light, with everything else known" ;;
+    separation) echo "Highlight separation on objects" ;;
+    robustness) echo "Many kinds of photo" ;;
+    direction) echo "Known light directions on real faces" ;;
+    speed) echo "Time and memory" ;;
+  esac
+}
+
+# As a reader would type it.
+command_of() {
+  case $1 in
+    speed) echo "bench/speed.sh BUILD" ;;
+    *) echo "BUILD/bin/bench_$1 --data DIR" ;;
+  esac
+}
+
+run_section() {
+  case $1 in
+    speed) "$root/bench/speed.sh" "$build" ;;
+    *) "$build/bin/bench_$1" --data "$data" ;;
+  esac
+}
+
+# What speed depends on, without naming anybody's machine.
+machine() {
+  local level= v
+  for v in "2 sse4_2" "3 avx2" "4 avx512vl"; do
+    if grep -qw "${v#* }" /proc/cpuinfo; then level=", x86-64-v${v% *}"; fi
+  done
+  echo "$(nproc) cores$level"
+}
+
+# The section as the file has it now, without its markers; empty when there is none.
+kept_section() {
+  [ -f "$results" ] || return 0
+  awk -v begin="<!-- begin $1 -->" -v end="<!-- end $1 -->" '$0 == end {on = 0} on {print} $0 == begin {on = 1}' "$results"
+}
+
+status=0
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+for section in "${sections[@]}"; do
+  kept_section "$section" >"$work/$section"
+  if [ -n "$only" ] && [ "$only" != "$section" ]; then continue; fi
+  echo "results: $section" >&2
+  code=0
+  run_section "$section" >"$work/output" || code=$?
+  # Only robustness has a bar, and says so with 1; any other failure leaves half a table.
+  if { [ "$code" -ne 0 ] && [ "$section:$code" != robustness:1 ]; } || [ ! -s "$work/output" ]; then
+    echo "results: $section ended with $code; its section stays as it was." >&2
+    status=1
+    continue
+  fi
+  [ "$code" -eq 0 ] || { echo "results: $section missed its bar." >&2; status=1; }
+  {
+    printf '## %s\n\n`%s`, on %s.\n\n' "$(title_of "$section")" "$(command_of "$section")" "$(machine)"
+    # Nobody's folders are published.
+    sed -e "s|$data|DIR|g" -e "s|$build|BUILD|g" -e "s|$root/||g" "$work/output"
+  } | cat -s >"$work/$section"
+done
+
+target=$(mktemp "$results.XXXXXX")
+{
+  cat <<'END'
+# Results
+
+Written by `bench/results.sh --data DIR [BUILD]`; edit the benchmarks, not this page. DIR is the data folder that
+[data.md](data.md) describes, BUILD a release build with the benchmarks. Every section names the command that printed it.
+Light is measured against light that is known: rendered, or set up by whoever took the pictures.
+END
+  for section in "${sections[@]}"; do
+    [ -s "$work/$section" ] || continue
+    printf '\n<!-- begin %s -->\n' "$section"
+    cat "$work/$section"
+    printf '<!-- end %s -->\n' "$section"
+  done
+} >"$target"
+chmod 644 "$target"
+mv "$target" "$results"
+exit "$status"

@@ -1,0 +1,21 @@
+#pragma once
+// Comma-separated tables that come with the data: one header row, no quotes.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace faceprobe::bench {
+
+struct CsvTable {
+  std::vector<std::string> header;
+  std::vector<std::vector<std::string>> rows;  // each as long as the header
+
+  // Index of a column. Throws Error(kInput) when the table has none of that name.
+  std::size_t column(const std::string& name) const;
+};
+
+// Throws Error(kInput) when the file cannot be read or a row has another length than the header.
+CsvTable read_csv(const std::filesystem::path& path);
+
+}  // namespace faceprobe::bench

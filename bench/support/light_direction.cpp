@@ -1,0 +1,88 @@
+#include "support/light_direction.h"
+
+#include "faceprobe/core/angles.h"
+#include "faceprobe/core/color.h"
+#include "faceprobe/core/sphere_grid.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace faceprobe::bench {
+
+namespace {
+
+SphereGrid grid_of(const lighting::Light& light) {
+  return SphereGrid(static_cast<int>(std::lround(std::sqrt(static_cast<double>(light.radiance.rows()) / 12))));
+}
+
+Eigen::VectorXd luminances(const lighting::Light& light) {
+  Eigen::VectorXd values(light.radiance.rows());
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    values[i] = luminance(light.radiance(i, 0), light.radiance(i, 1), light.radiance(i, 2));
+  }
+  return values;
+}
+
+// An even sky has no direction: its brightest cell is a rounding error.
+bool is_even(const Eigen::VectorXd& luminance) {
+  return luminance.maxCoeff() - luminance.minCoeff() <= 1e-4 * luminance.maxCoeff();
+}
+
+std::optional<Eigen::Vector3d> unit(const Eigen::Vector3d& sum) {
+  if (!(sum.norm() > 1e-9)) return std::nullopt;
+  return sum.normalized();
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector3d> light_directions(const pipeline::LightResult& result) {
+  std::vector<Eigen::Vector3d> directions;
+  for (const lighting::MainLight& light : result.lights) directions.push_back(light.direction);
+  if (!directions.empty()) return directions;
+  const Eigen::VectorXd values = luminances(result.light);
+  if (is_even(values)) return {};
+  Eigen::Index brightest = 0;
+  values.maxCoeff(&brightest);
+  return {grid_of(result.light).direction(static_cast<int>(brightest)).cast<double>()};
+}
+
+std::optional<Eigen::Vector3d> energy_centroid(const pipeline::LightResult& result) {
+  const Eigen::VectorXd values = luminances(result.light);
+  if (is_even(values)) return std::nullopt;
+  std::vector<double> sorted(values.begin(), values.end());
+  std::nth_element(sorted.begin(), sorted.begin() + values.size() / 2, sorted.end());
+  const double middle = sorted[static_cast<std::size_t>(values.size() / 2)];
+  const SphereGrid grid = grid_of(result.light);
+  return unit(grid.directions().cast<double>().transpose() * (values.array() - middle).max(0.0).matrix());
+}
+
+std::optional<Eigen::Vector3d> single_lamp(const lighting::Observations& observations) {
+  Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d lit = Eigen::Vector3d::Zero();
+  for (Eigen::Index i = 0; i < observations.count(); ++i) {
+    if (observations.clipped.row(i).any()) continue;
+    const Eigen::Vector3d normal = observations.normal.row(i).transpose().cast<double>();
+    const double weight = observations.weight[i];
+    moment += weight * normal * normal.transpose();
+    lit += weight * normal *
+           static_cast<double>(
+               luminance(observations.shading(i, 0), observations.shading(i, 1), observations.shading(i, 2)));
+  }
+  return unit(moment.ldlt().solve(lit));
+}
+
+std::optional<Eigen::Vector3d> mean_direction(const std::vector<Eigen::Vector3d>& directions) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& direction : directions) sum += direction;
+  return unit(sum);
+}
+
+double nearest_deg(const Eigen::Vector3d& direction, const std::vector<Eigen::Vector3d>& candidates) {
+  double nearest = 180;
+  for (const Eigen::Vector3d& candidate : candidates)
+    nearest = std::min(nearest, angle_between_deg(direction, candidate));
+  return nearest;
+}
+
+}  // namespace faceprobe::bench

@@ -1,0 +1,29 @@
+#pragma once
+// The directions that an estimated light amounts to, as the direction benchmarks compare them with known lights.
+
+#include "faceprobe/pipeline/estimate.h"
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+namespace faceprobe::bench {
+
+// Unit vectors towards the main lights, strongest first; towards the brightest cell alone when there is no main light. Empty for
+// an even sky, which says nothing about direction.
+std::vector<Eigen::Vector3d> light_directions(const pipeline::LightResult& result);
+
+// Mean direction of the cells above the median luminance, weighted by how much they are above it: where most of the light
+// comes from, whatever the number of lights. Empty for an even sky.
+std::optional<Eigen::Vector3d> energy_centroid(const pipeline::LightResult& result);
+
+// A yardstick: the one distant lamp, without ambient light and cast shadows, that fits the shading best in the sense of least
+// squares (luminance, patches without clipping).
+std::optional<Eigen::Vector3d> single_lamp(const lighting::Observations& observations);
+
+// Normalised mean of unit vectors; empty when they cancel or there are none.
+std::optional<Eigen::Vector3d> mean_direction(const std::vector<Eigen::Vector3d>& directions);
+// Smallest angle to one of the candidates (at least one), in degrees.
+double nearest_deg(const Eigen::Vector3d& direction, const std::vector<Eigen::Vector3d>& candidates);
+
+}  // namespace faceprobe::bench

@@ -1,0 +1,114 @@
+# Where files end up, and what happens when they cannot.
+
+quick_face_files() {
+  local file
+  for file in "${one_face_files[@]}"; do echo "$1/$file"; done
+}
+
+case_several_photos() {
+  cp "$photo" first.jpg
+  cp "$photo" second.jpg
+  echo "not a photo" >broken.jpg
+  expect_exit 0 estimate first.jpg second.jpg -o all "${quick[@]}"
+  mapfile -t wanted < <(quick_face_files first; quick_face_files second)
+  expect_files all "${wanted[@]}"
+  # One bad photo does not cost the others theirs.
+  expect_exit 8 estimate first.jpg broken.jpg missing.jpg second.jpg -o some "${quick[@]}"
+  expect_stderr "broken.jpg"
+  expect_stderr "missing.jpg"
+  expect_files some "${wanted[@]}"
+}
+
+case_several_photos_of_one_name() {
+  mkdir one two
+  cp "$photo" one/a.jpg
+  cp "$photo" two/a.jpg
+  cp "$photo" a_1.jpg
+  cp "$photo" ...jpg
+  expect_exit 0 separate one/a.jpg two/a.jpg a_1.jpg ...jpg -o deep/all
+  expect_files deep all/{a_1_1,a_2,a_1,photo}/{highlight,diffuse}.exr
+}
+
+case_same_bytes_for_any_threads() {
+  expect_exit 0 estimate "$photo" -o one --deterministic --threads 1
+  sleep 1  # a date in a file would differ from here on
+  expect_exit 0 estimate "$photo" -o three --deterministic --threads 3
+  local file
+  for file in "${one_face_files[@]}"; do
+    if [ "$file" = report.json ]; then continue; fi  # holds the times taken
+    cmp "one/$file" "three/$file" || fail "$file depends on --threads"
+  done
+}
+
+case_odd_file_names() {
+  local stem stems=("with space" "-dash" "Größe 顔" $'new\nline' '"quoted" $HOME `x`;' $'not utf8 \xff' "two.dots")
+  local photos=("./no extension")
+  cp "$photo" "no extension"
+  for stem in "${stems[@]}"; do
+    cp "$photo" "./$stem.jpg"
+    photos+=("./$stem.jpg")
+  done
+  expect_exit 0 estimate "${photos[@]}" -o out "${quick[@]}"
+  for stem in "no extension" "${stems[@]}"; do
+    expect_files "out/$stem" "${one_face_files[@]}"
+    expect_json faceprobe-report/1 "out/$stem/report.json" schema
+  done
+  expect_json "./Größe 顔.jpg" "out/Größe 顔/report.json" photo source
+  expect_exit 0 estimate "./Größe 顔.jpg" -o "Größe $'\n'.exr" "${quick[@]}"
+  [ -f "Größe $'\n'.exr" ] || fail "no map of that name"
+}
+
+case_closed_streams() {
+  "$faceprobe" -q estimate "$photo" -o "open" --deterministic </dev/null
+  "$faceprobe" estimate "$photo" -o closed --deterministic <&- >&- 2>&- || fail "exit $? with closed streams"
+  local file
+  for file in "${one_face_files[@]}"; do
+    if [ "$file" = report.json ]; then continue; fi
+    cmp "open/$file" "closed/$file" || fail "$file got what was meant for a closed stream"
+  done
+  # A report that nobody got is a failure.
+  local code=0
+  "$faceprobe" info --json "$photo" >&- 2>"$work/stderr" || code=$?
+  [ "$code" = 6 ] || fail "exit $code with a closed stdout"
+  if [ -c /dev/full ]; then
+    code=0
+    "$faceprobe" info --json "$photo" >/dev/full 2>"$work/stderr" || code=$?
+    [ "$code" = 6 ] || fail "exit $code with a full stdout"
+  fi
+}
+
+case_output_cannot_be_written() {
+  echo "old" >file
+  mkdir light.exr
+  expect_refused 6 "file" estimate "$photo" -o file "${quick[@]}"
+  expect_refused 6 "file/below" estimate "$photo" -o file/below "${quick[@]}"
+  expect_refused 6 "file/light.exr" estimate "$photo" -o file/light.exr "${quick[@]}"
+  expect_refused 6 "light.exr" estimate "$photo" -o light.exr "${quick[@]}"
+  expect_refused 6 "nowhere" estimate "$photo" -o nowhere/light.exr "${quick[@]}"
+  expect_refused 6 "file" separate "$photo" -o file
+  expect_refused 6 "" estimate "$photo" -o "$(printf 'x%.0s' {1..300})" "${quick[@]}"
+  [ "$(cat file)" = old ] || fail "the old file was touched"
+  expect_files "$work" stdout stderr file
+}
+
+case_full_disk_leaves_the_old_file() {
+  # The shell's limit on file sizes stands in for a full disk: write() fails half-way through a file. 8 KiB are enough for a
+  # message, not for a map.
+  expect_exit 0 estimate "$photo" -o out --size 256
+  cp -r out before
+  (
+    trap '' XFSZ  # otherwise the signal kills, before write() can fail
+    ulimit -f 8
+    expect_refused 6 "cannot be written" estimate "$photo" -o out --size 256 --solver paper
+    expect_refused 6 "cannot be written" estimate "$photo" -o fresh.hdr --size 512
+  )
+  [ ! -e fresh.hdr ] || fail "half a map was left"
+  expect_files out "${one_face_files[@]}"
+  local file changed=0
+  for file in "${one_face_files[@]}"; do
+    if cmp -s "before/$file" "out/$file"; then continue; fi
+    changed=$((changed + 1))
+    [ "$(stat -c %s "out/$file")" -le 8192 ] || fail "$file is neither the old one nor small enough to be whole"
+  done
+  cmp before/environment.exr out/environment.exr || fail "the old map was touched"
+}
