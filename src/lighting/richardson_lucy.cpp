@@ -73,7 +73,6 @@ RichardsonLucyResult richardson_lucy(const RowMatrix& transport, const Eigen::Ve
   const bool bounded = lower_bound.size() > 0;
   if (weight.size() != transport.rows() || observed.rows() != transport.rows() || start.rows() != transport.cols() ||
       start.cols() != observed.cols() ||
-      (options.prior_level.size() > 0 && options.prior_level.size() != observed.cols()) ||
       (bounded && (lower_bound.rows() != observed.rows() || lower_bound.cols() != observed.cols()))) {
     throw std::invalid_argument("Richardson-Lucy needs matching rows, columns and channels.");
   }
@@ -86,9 +85,6 @@ RichardsonLucyResult richardson_lucy(const RowMatrix& transport, const Eigen::Ve
   // Beta of each column: the prior stands in for the sensitivity that a column lacks.
   const Eigen::VectorXf prior =
       options.prior_weight * (median_above(result.sensitivity, least) - result.sensitivity.array()).max(0.0F);
-
-  const bool own_level = options.prior_level.size() > 0;
-  const auto level = [&](Eigen::Index j, Eigen::Index c) { return own_level ? options.prior_level[c] : start(j, c); };
 
   // Predictions far below anything observed would turn one bad row into a spike; a floor relative to the data keeps the ratio
   // bounded and is too small to matter elsewhere.
@@ -121,7 +117,7 @@ RichardsonLucyResult richardson_lucy(const RowMatrix& transport, const Eigen::Ve
       for (Eigen::Index j = 0; j < transport.cols(); ++j) {
         if (result.sensitivity[j] <= least) continue;
         float& e = result.estimate(j, c);
-        e = (e * correction(j, c) + prior[j] * level(j, c)) / (result.sensitivity[j] + prior[j]);
+        e = (e * correction(j, c) + prior[j] * start(j, c)) / (result.sensitivity[j] + prior[j]);
       }
     }
   }

@@ -1,6 +1,7 @@
 #include "faceprobe/lighting/estimate.h"
 #include "faceprobe/lighting/richardson_lucy.h"
 #include "faceprobe/lighting/transport.h"
+#include "lighting/smooth_start.h"
 
 #include <algorithm>
 #include <cmath>
@@ -47,10 +48,10 @@ RichardsonLucyOptions rl_options(const SolveOptions& options, int iterations) {
 // Brings the highlights to the scale of the shading: h = gain * S e + leak * s, both fitted against the light that the shading
 // alone gives. That light is blurred, which moves energy around but hardly changes its sum, so sums are what is compared.
 void fit_highlights(const Observations& o, const RowMatrix& highlight_rows, const RowMatrix& shading_rows,
-                    const SolveOptions& options, float level, Light& light, Eigen::MatrixX3f& highlight) {
-  constexpr int kSmoothIterations = 40;
+                    const SolveOptions& options, const Eigen::MatrixXf& start, float level, Light& light,
+                    Eigen::MatrixX3f& highlight) {
+  constexpr int kSmoothIterations = 10;
   const Eigen::VectorXf shading = o.shading * kLuminance;
-  const Eigen::MatrixXf start = Eigen::MatrixXf::Constant(shading_rows.cols(), 1, level);
   const Flags bound = o.clipped.rowwise().any();
   RichardsonLucyOptions plain = rl_options(options, kSmoothIterations);
   plain.prior_weight = 0;  // which keeps the flux, and that is all that counts here
@@ -85,9 +86,8 @@ void fit_highlights(const Observations& o, const RowMatrix& highlight_rows, cons
   highlight = (highlight - leak * o.shading).cwiseMax(0.0F) / gain;
 }
 
-Rows stack(const Observations& o, const RowMatrix& highlight_rows, const RowMatrix& shading_rows,
-           const Eigen::MatrixX3f& highlight, const SolveOptions& options) {
-  const float highlight_flux = weighted_sum(o.weight, highlight * kLuminance);
+Rows stack(const Observations& o, const Transport& transport, const SolveOptions& options) {
+  const float highlight_flux = weighted_sum(o.weight, o.highlight * kLuminance);
   const float shading_flux = weighted_sum(o.weight, o.shading * kLuminance);
   const bool use_highlights = options.highlight_weight > 0 && highlight_flux > 0;
   const bool use_shading = shading_flux > 0 && (options.shading_weight > 0 || !use_highlights);
@@ -95,18 +95,18 @@ Rows stack(const Observations& o, const RowMatrix& highlight_rows, const RowMatr
   Rows rows;
   rows.highlights = use_highlights ? n : 0;
   const Eigen::Index total = rows.highlights + (use_shading ? n : 0);
-  rows.transport.resize(total, highlight_rows.cols());
+  rows.transport.resize(total, transport.diffuse.cols());
   rows.weight.resize(total);
   rows.data.resize(total, 3);
   rows.bound.resize(total, 3);
   if (use_highlights) {
-    rows.transport.topRows(n) = highlight_rows;
+    rows.transport.topRows(n) = transport.highlight;
     rows.weight.head(n) = o.weight * (options.highlight_weight / highlight_flux);
-    rows.data.topRows(n) = highlight;
+    rows.data.topRows(n) = o.highlight;
     rows.bound.topRows(n) = o.clipped;
   }
   if (use_shading) {
-    rows.transport.bottomRows(n) = shading_rows;
+    rows.transport.bottomRows(n) = transport.diffuse;
     rows.weight.tail(n) = o.weight * (std::max(options.shading_weight, 1e-3F) / shading_flux);
     rows.data.bottomRows(n) = o.shading;
     rows.bound.bottomRows(n) = o.clipped;
@@ -129,21 +129,6 @@ Eigen::MatrixX3f coloured(const Rows& rows, const Eigen::VectorXf& level, const 
     if (found > 0) radiance.row(j) *= level[j] / found;
   }
   return radiance;
-}
-
-// The median over the better observed half of the cells after a few free steps: what is there between the lights.
-Eigen::RowVectorXf ambient_level(const Rows& rows, const Eigen::MatrixXf& luminance, const Flags& bound,
-                                 const Eigen::MatrixXf& start, const SolveOptions& options) {
-  constexpr int kFreeIterations = 15;
-  RichardsonLucyOptions rl = rl_options(options, kFreeIterations);
-  rl.prior_weight = 0;
-  const RichardsonLucyResult free = richardson_lucy(rows.transport, rows.weight, luminance, bound, start, rl);
-  const float typical = quantile({free.sensitivity.begin(), free.sensitivity.end()}, 0.5);
-  std::vector<float> levels;
-  for (Eigen::Index j = 0; j < free.sensitivity.size(); ++j) {
-    if (free.sensitivity[j] >= typical) levels.push_back(free.estimate(j, 0));
-  }
-  return Eigen::RowVectorXf::Constant(1, quantile(levels, 0.5));
 }
 
 // Cells that hardly anything observes take the ambient level: the median of what is observed well.
@@ -180,27 +165,28 @@ Light solve_transport(const Observations& observations, const SolveOptions& opti
   if (observations.count() == 0) return light;
 
   const Transport transport = build_transport(observations, grid, options.threads);
-  const RowMatrix& shading_rows = transport.diffuse;
-  const RowMatrix& highlight_rows = transport.highlight;
-  Eigen::MatrixX3f highlight = observations.highlight;
-  const float weight = observations.weight.sum();
+  Observations patches = observations;
+  const float weight = patches.weight.sum();
   // Uniform radiance L gives a shading of at most L, so the mean shading is the right order of magnitude to start from.
-  float level = weighted_sum(observations.weight, observations.shading * kLuminance) / weight;
+  float level = weighted_sum(patches.weight, patches.shading * kLuminance) / weight;
+  Eigen::MatrixXf start = Eigen::MatrixXf::Constant(grid.cell_count(), 1, level);
   if (level > 0) {
-    fit_highlights(observations, highlight_rows, shading_rows, options, level, light, highlight);
+    const SmoothFit fit = fit_smooth_light(patches, patches.shading * kLuminance, patches.clipped.rowwise().any());
+    // Never silenced: two lamps from opposite sides are misfit too, and they are data.
+    patches.weight = patches.weight.cwiseProduct(fit.trust.cwiseMax(0.2F));
+    start = smooth_radiance(fit, grid, level);
+    fit_highlights(patches, transport.highlight, transport.diffuse, options, start, level, light, patches.highlight);
   } else {
-    const float per_unit = weighted_sum(observations.weight, highlight_rows.rowwise().sum());
-    level = per_unit > 0 ? weighted_sum(observations.weight, highlight * kLuminance) / per_unit : 0;
+    const float per_unit = weighted_sum(patches.weight, transport.highlight.rowwise().sum());
+    level = per_unit > 0 ? weighted_sum(patches.weight, patches.highlight * kLuminance) / per_unit : 0;
+    start.setConstant(level);
   }
   if (!(level > 0)) return light;
 
-  const Rows rows = stack(observations, highlight_rows, shading_rows, highlight, options);
-  const Eigen::MatrixXf start = Eigen::MatrixXf::Constant(grid.cell_count(), 1, level);
+  const Rows rows = stack(patches, transport, options);
   const Flags bound = rows.bound.rowwise().any();
-  const Eigen::MatrixXf luminance = rows.data * kLuminance;
-  RichardsonLucyOptions rl = rl_options(options, options.iterations);
-  if (options.prior_weight > 0) rl.prior_level = ambient_level(rows, luminance, bound, start, options);
-  const RichardsonLucyResult solved = richardson_lucy(rows.transport, rows.weight, luminance, bound, start, rl);
+  const RichardsonLucyResult solved = richardson_lucy(rows.transport, rows.weight, rows.data * kLuminance, bound, start,
+                                                      rl_options(options, options.iterations));
   light.radiance = coloured(rows, solved.estimate.col(0), options);
   fill_unobserved(solved.sensitivity, light);
   return light;

@@ -39,9 +39,20 @@ float smooth_step(float low, float high, float value) {
   return t * t * (3.0F - 2.0F * t);
 }
 
+// Pixels this close to the mesh's outline may show hair or background: the mesh is good to a few percent of the face.
+constexpr double kRimShare = 0.025;
+
+bool near_rim(const face::FaceGeometry& geometry, int x, int y) {
+  const int reach = std::max(1, static_cast<int>(std::lround(kRimShare * std::max(geometry.region.width(), geometry.region.height()))));
+  const auto outside = [&](int px, int py) {
+    return px < 0 || py < 0 || px >= geometry.region.width() || py >= geometry.region.height() || geometry.region(px, py) == 0;
+  };
+  return outside(x - reach, y) || outside(x + reach, y) || outside(x, y - reach) || outside(x, y + reach);
+}
+
 bool usable(const face::FaceGeometry& geometry, const ByteImage& flags, int x, int y) {
   const auto region = static_cast<Region>(geometry.region(x, y));
-  if (!face::is_probe_skin(region) || (flags(x, y) & io::kTransparent) != 0) return false;
+  if (!face::is_probe_skin(region) || (flags(x, y) & io::kTransparent) != 0 || near_rim(geometry, x, y)) return false;
   const Eigen::Map<const Eigen::Vector3f> normal(geometry.normal_cam.pixel(x, y));
   const Eigen::Map<const Eigen::Vector3f> view(geometry.view_cam.pixel(x, y));
   return normal.dot(view) > kLeastCosine;

@@ -40,9 +40,9 @@ struct SolveOptions {
   bool fit_highlight_gain = true;
   // Diffuse light that a separator left in the highlights, per unit of shading; fitted, never more than this. 0 = none.
   float max_leak = 0.2F;
-  // Pull of weakly observed cells towards the ambient level, see RichardsonLucyOptions: what only a few grazing patches see
-  // stays near the level of the well observed cells' median instead of soaking up the patches' errors.
-  float prior_weight = 0.03F;
+  // Pull of weakly observed cells towards the smooth light that the shading alone gives, see RichardsonLucyOptions: they stay near
+  // it instead of soaking up the errors of the few grazing patches that see them.
+  float prior_weight = 0.1F;
   // Steps of the per-channel stage that colours the luminance solution; few keep the colour smooth over the sphere.
   int colour_iterations = 6;
   int threads = 0;

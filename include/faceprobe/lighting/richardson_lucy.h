@@ -7,13 +7,13 @@
 // Estimates stay non-negative, the weighted sum of the predictions equals that of the data after every step, and the likelihood
 // never falls. Observations that are only lower bounds (clipped pixels) pull upwards while p_i < h_i and are silent after.
 //
-// With prior_weight > 0 a column that is observed less than the median one also has a gamma prior with the mode b_j (the posterior's
-// EM step),
+// With prior_weight > 0 a column that is observed less than the median one also has a gamma prior whose mode is its start value (the
+// posterior's EM step),
 //
-//   e_j <- ( e_j sum_i a_i T_ij h_i / p_i + beta_j b_j ) / ( sum_i a_i T_ij + beta_j ),
+//   e_j <- ( e_j sum_i a_i T_ij h_i / p_i + beta_j e_j^start ) / ( sum_i a_i T_ij + beta_j ),
 //   beta_j = prior_weight max(0, median sensitivity - sum_i a_i T_ij),
 //
-// so that a column which the data hardly reach stays near b_j instead of soaking up what nothing else explains.
+// so that a column which the data hardly reach stays near its start instead of soaking up what nothing else explains.
 //
 // Not for signed data or signed transport.
 
@@ -31,7 +31,6 @@ struct RichardsonLucyOptions {
   float unobserved_share = 1e-3F;
   // Strength of the prior on weakly observed columns; 0 = plain Richardson-Lucy.
   float prior_weight = 0.0F;
-  Eigen::RowVectorXf prior_level = {};  // #channels, b of every column; empty = each column's start value
   bool track_likelihood = false;  // costs a logarithm per observation and iteration
   int threads = 0;
 
