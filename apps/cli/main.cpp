@@ -32,20 +32,22 @@ int with_stdout_written(int code) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  using namespace faceprobe;
+  namespace cli = faceprobe::cli;
   occupy_standard_streams();
   std::signal(SIGPIPE, SIG_DFL);  // `faceprobe ... | head` ends quietly
   spdlog::set_default_logger(spdlog::stderr_color_st("faceprobe"));
   spdlog::set_pattern("%^%l%$: %v");
 
   CLI::App program("Faceprobe turns the faces of an ordinary photo into the light that fell on them.", "faceprobe");
-  program.set_version_flag("--version", std::string(kVersion));
+  program.set_version_flag("--version", std::string(faceprobe::kVersion));
   program.require_subcommand(1);
   bool quiet = false;
   program.add_flag("-q,--quiet", quiet, "errors only on stderr");
   program.fallthrough();
-  program.footer("Exit codes: 0 ok, 1 unexpected, 2 usage, 3 input unreadable or over a limit, 4 no usable face, 5 model missing or\n"
-                 "invalid, 6 output not written, 7 device unavailable, 8 some of several photos failed.");
+  program.footer(
+      "Exit codes: 0 ok, 1 unexpected, 2 usage, 3 input unreadable or over a limit, 4 no usable face, 5 model missing "
+      "or\n"
+      "invalid, 6 output not written, 7 device unavailable, 8 some of several photos failed.");
   cli::Action action;
   cli::add_estimate(program, action);
   cli::add_separate(program, action);
@@ -54,7 +56,7 @@ int main(int argc, char** argv) {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     // CLI11 numbers its errors from 100; help and version are no errors.
-    return program.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::kUsage);
+    return program.exit(error) == 0 ? 0 : static_cast<int>(faceprobe::ExitCode::kUsage);
   }
   if (quiet) spdlog::set_level(spdlog::level::err);
   return cli::run_guarded([&action] { return with_stdout_written(action()); });

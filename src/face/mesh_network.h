@@ -17,7 +17,7 @@ struct MeshReading {
 
 class MeshNetwork {
  public:
-  MeshNetwork(const std::filesystem::path& model);
+  explicit MeshNetwork(const std::filesystem::path& model);
 
   // One look at a square.
   MeshReading read(const Sampler& photo, const SquareRegion& square);

@@ -22,6 +22,8 @@ class TfliteModel {
   ~TfliteModel();
   TfliteModel(TfliteModel&&) noexcept;
   TfliteModel& operator=(TfliteModel&&) noexcept;
+  TfliteModel(const TfliteModel&) = delete;
+  TfliteModel& operator=(const TfliteModel&) = delete;
 
   std::span<float> input();
   void run();

@@ -116,13 +116,13 @@ void Decoder::refuse() const {
                                     ". Copy it again or save it anew.");
 }
 
-void Decoder::read_tiled(OIIO::TypeDesc type) {
+void Decoder::read_tiled(const OIIO::TypeDesc& type) {
   whole_.resize(static_cast<std::size_t>(width()) * static_cast<std::size_t>(height()) *
                 static_cast<std::size_t>(channels()) * type.size());
   if (!reader_->read_image(0, 0, first_channel_, first_channel_ + channels(), type, whole_.data())) refuse();
 }
 
-void Decoder::read(int first, int count, void* codes, OIIO::TypeDesc type) {
+void Decoder::read(int first, int count, void* codes, const OIIO::TypeDesc& type) {
   const OIIO::ImageSpec s = reader_->spec_dimensions(0);
   if (s.tile_width > 0) {
     if (whole_.empty()) read_tiled(type);

@@ -42,8 +42,8 @@ class Decoder {
   void open(std::span<const std::byte> bytes, const Header& header);
   void choose_channels();
   void check_against(const Header& header) const;
-  void read(int first, int count, void* codes, OIIO::TypeDesc type);
-  void read_tiled(OIIO::TypeDesc type);
+  void read(int first, int count, void* codes, const OIIO::TypeDesc& type);
+  void read_tiled(const OIIO::TypeDesc& type);
   [[noreturn]] void refuse() const;
 
   std::string name_;

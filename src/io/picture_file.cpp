@@ -38,7 +38,7 @@ void require_channels(const std::filesystem::path& path, int channels, bool rgb_
   }
 }
 
-OIIO::ImageSpec make_spec(int width, int height, int channels, OIIO::TypeDesc type, const Attributes& attributes) {
+OIIO::ImageSpec make_spec(int width, int height, int channels, const OIIO::TypeDesc& type, const Attributes& attributes) {
   OIIO::ImageSpec spec(width, height, channels, type);
   if (channels == 1) spec.channelnames = {"Y"};
   for (const auto& [name, value] : attributes) spec.attribute(name, value);
@@ -47,7 +47,7 @@ OIIO::ImageSpec make_spec(int width, int height, int channels, OIIO::TypeDesc ty
 
 // Encodes in memory, then writes: the encoders do not report a full disk, write() does.
 void encode_and_write(const std::filesystem::path& path, const std::string& format, const OIIO::ImageSpec& spec,
-                      OIIO::TypeDesc type, const void* values) {
+                      const OIIO::TypeDesc& type, const void* values) {
   std::vector<unsigned char> bytes;
   OIIO::Filesystem::IOVecOutput memory(bytes);
   const std::unique_ptr<OIIO::ImageOutput> writer = OIIO::ImageOutput::create(format);

@@ -54,8 +54,8 @@ case_odd_file_names() {
     expect_json faceprobe-report/1 "out/$stem/report.json" schema
   done
   expect_json "./Größe 顔.jpg" "out/Größe 顔/report.json" photo source
-  expect_exit 0 estimate "./Größe 顔.jpg" -o "Größe $'\n'.exr" "${quick[@]}"
-  [ -f "Größe $'\n'.exr" ] || fail "no map of that name"
+  expect_exit 0 estimate "./Größe 顔.jpg" -o $'Größe\n.exr' "${quick[@]}"
+  [ -f $'Größe\n.exr' ] || fail "no map of that name"
 }
 
 case_closed_streams() {

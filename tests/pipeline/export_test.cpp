@@ -57,8 +57,8 @@ EnvMap three_lamps() {
   for (int y = 0; y < map.height(); ++y) {
     for (int x = 0; x < map.width(); ++x) {
       for (int c = 0; c < 3; ++c) {
-        const Eigen::Vector3d lamp = std::array{Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0, 1, 0)}[
-            static_cast<std::size_t>(c)];
+        const Eigen::Vector3d lamp = std::array{Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 0, 1),
+                                                Eigen::Vector3d(0, 1, 0)}[static_cast<std::size_t>(c)];
         map.radiance()(x, y, c) = angle_between_deg(map.direction(x, y).cast<double>(), lamp) < 15 ? 8.0F : 0.25F;
       }
     }

@@ -22,7 +22,9 @@ constexpr double kHeadYaw = 25;
 // In front of the camera, on the averted side (75 degrees from where the face points), and on the near side.
 const std::vector<std::pair<double, double>> kLamps = {{0.0, 30.0}, {-50.0, 20.0}, {60.0, 10.0}};
 
-ByteImage no_flags(const PosedFace& posed) { return {posed.geometry.region.width(), posed.geometry.region.height(), 1}; }
+ByteImage no_flags(const PosedFace& posed) {
+  return {posed.geometry.region.width(), posed.geometry.region.height(), 1};
+}
 
 LightResult answer(const PosedFace& posed, const LitFace& lit) {
   const EstimateOptions options;
@@ -57,7 +59,8 @@ TEST(KnownLight, AlsoThroughSeparatorAndAlbedo) {
     for (std::size_t i = 0; i < albedo.values().size(); ++i) seen.shading.values()[i] /= albedo.values()[i];
     // The separator keeps part of each highlight in the diffuse layer, most where the light grazes; 15 degrees were measured on
     // the averted side. The point is that nothing in the chain mirrors or turns the light.
-    EXPECT_LE(error_of_strongest_deg(answer(posed, seen), truth), 20) << "azimuth " << azimuth << " elevation " << elevation;
+    EXPECT_LE(error_of_strongest_deg(answer(posed, seen), truth), 20)
+        << "azimuth " << azimuth << " elevation " << elevation;
   }
 }
 
@@ -74,7 +77,8 @@ TEST(KnownLight, RedLampAtCameraRightIsAQuarterFromTheLeftOfTheMap) {
   // 8 degrees are .022 of the width and .044 of the height.
   EXPECT_NEAR((brightest.x() + 0.5) / map.width(), 0.25, 0.022);
   EXPECT_NEAR((brightest.y() + 0.5) / map.height(), 0.5, 0.044);
-  EXPECT_GT(map(brightest.x(), brightest.y(), 0), 5 * map(brightest.x(), brightest.y(), 1)) << "it is ten times as red as green";
+  EXPECT_GT(map(brightest.x(), brightest.y(), 0), 5 * map(brightest.x(), brightest.y(), 1))
+      << "it is ten times as red as green";
   EXPECT_LE(error_of_strongest_deg(found, {1, 0, 0}), 8);
   EXPECT_GT(found.lights.front().colour[0], 3 * found.lights.front().colour[2]);
   // The first band of harmonics points there too: (1, 1) goes with +x.

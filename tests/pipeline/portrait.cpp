@@ -14,7 +14,8 @@ template <class T>
 BasicImage<T> mirrored_image(const BasicImage<T>& image) {
   BasicImage<T> out(image.width(), image.height(), image.channels());
   for (int y = 0; y < image.height(); ++y) {
-    for (int x = 0; x < image.width(); ++x) std::copy_n(image.pixel(x, y), image.channels(), out.pixel(image.width() - 1 - x, y));
+    for (int x = 0; x < image.width(); ++x)
+      std::copy_n(image.pixel(x, y), image.channels(), out.pixel(image.width() - 1 - x, y));
   }
   return out;
 }

@@ -13,8 +13,8 @@ const io::Photo& portrait();
 // Estimated once per process with default options.
 const Estimate& portrait_estimate();
 
-io::Photo mirrored(const io::Photo& photo);               // left and right swapped
-io::Photo dimmed(const io::Photo& photo, float gain);     // linear values times gain
+io::Photo mirrored(const io::Photo& photo);            // left and right swapped
+io::Photo dimmed(const io::Photo& photo, float gain);  // linear values times gain
 io::Photo twice_side_by_side(const io::Photo& photo);
 io::Photo blank(int width, int height);
 

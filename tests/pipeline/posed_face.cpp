@@ -41,7 +41,8 @@ bool meets(const Eigen::Vector3f& from, const Eigen::Vector3f& along, const Eige
 }
 
 Microfacet skin_at(const face::FaceGeometry& geometry, int x, int y) {
-  const lighting::SkinReflectance skin = lighting::skin_reflectance(static_cast<lighting::SkinRegion>(geometry.region(x, y) - 1));
+  const lighting::SkinReflectance skin =
+      lighting::skin_reflectance(static_cast<lighting::SkinRegion>(geometry.region(x, y) - 1));
   return {.roughness = skin.roughness, .specular_albedo = skin.specular_albedo};
 }
 
@@ -58,7 +59,8 @@ PosedFace posed_face(double yaw_deg) {
   face.camera_from_face.translation() = Eigen::Vector3d(0.02, 0.01, -0.6);
   face.vertices_cam_m = (face.camera_from_face * mesh().vertices_m.cast<double>().transpose()).transpose().cast<float>();
   Eigen::AlignedBox2d box;
-  for (const auto& vertex : face.vertices_cam_m.rowwise()) box.extend(kCamera.project(vertex.transpose().cast<double>()));
+  for (const auto& vertex : face.vertices_cam_m.rowwise())
+    box.extend(kCamera.project(vertex.transpose().cast<double>()));
   const Eigen::Vector2f corner = box.min().cast<float>();
   const Eigen::Vector2f size = box.sizes().cast<float>();
   face.box = {corner.x(), corner.y(), size.x(), size.y()};

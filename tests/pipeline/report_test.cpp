@@ -30,7 +30,8 @@ std::set<std::string> files_under(const fs::path& folder) {
 
 // The list of include/faceprobe/pipeline/outputs.h for one face.
 std::set<std::string> files_of_a_face(bool layers = true) {
-  std::set<std::string> names = {"environment.exr", "environment.hdr", "environment.png", "confidence.exr", "overview.png"};
+  std::set<std::string> names = {"environment.exr", "environment.hdr", "environment.png", "confidence.exr",
+                                 "overview.png"};
   if (!layers) return names;
   names.insert("regions.png");
   for (const char* layer : {"highlight", "diffuse", "albedo", "shading", "normals"}) {
@@ -70,15 +71,18 @@ TEST(Report, HoldsTheDocumentedFields) {
   ASSERT_EQ(light.at("main_lights").size(), portrait_estimate().faces[0].lights.size());
   const json& strongest = light.at("main_lights").at(0);
   EXPECT_NEAR(strongest.at("direction")[0].get<double>(), portrait_estimate().faces[0].lights[0].direction.x(), 1e-12);
-  for (const char* number : {"azimuth_deg", "elevation_deg", "irradiance", "peak_radiance", "solid_angle_sr", "share_of_energy"}) {
+  for (const char* number :
+       {"azimuth_deg", "elevation_deg", "irradiance", "peak_radiance", "solid_angle_sr", "share_of_energy"}) {
     EXPECT_TRUE(strongest.at(number).is_number()) << number;
   }
   EXPECT_GT(report.at("timings").at("total_seconds").get<double>(), 0);
 }
 
 TEST(Report, SourceNamesMayBeAnyBytes) {
-  const std::string text = report_json(portrait_estimate(), portrait(), EstimateOptions(), "a \"quoted\"\n\xff name.jpg");
-  EXPECT_EQ(json::parse(text).at("photo").at("source"), "a \"quoted\"\n\xef\xbf\xbd name.jpg");  // U+FFFD for what is not UTF-8
+  const std::string text =
+      report_json(portrait_estimate(), portrait(), EstimateOptions(), "a \"quoted\"\n\xff name.jpg");
+  EXPECT_EQ(json::parse(text).at("photo").at("source"),
+            "a \"quoted\"\n\xef\xbf\xbd name.jpg");  // U+FFFD for what is not UTF-8
 }
 
 TEST(Outputs, OneFaceFillsTheFolderItself) {
@@ -104,8 +108,8 @@ TEST(Outputs, SeveralFacesGetAFolderEach) {
   OutputOptions output;
   output.layers = false;
   write_outputs(folder.path(), estimate, two, options, "two.jpg", output);
-  std::set<std::string> wanted = {"report.json", "joint/environment.exr", "joint/environment.hdr", "joint/environment.png",
-                                  "joint/confidence.exr"};
+  std::set<std::string> wanted = {"report.json", "joint/environment.exr", "joint/environment.hdr",
+                                  "joint/environment.png", "joint/confidence.exr"};
   for (const std::string& name : files_of_a_face(false)) {
     for (const char* place : {"", "face_1/", "face_2/"}) wanted.insert(place + name);
   }

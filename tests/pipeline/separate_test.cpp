@@ -32,7 +32,8 @@ void expect_layers_of(const io::Photo& photo, const highlight::Layers& layers, c
       const bool in_a_box = std::any_of(faces.begin(), faces.end(), [&](const face::Face& f) {
         const auto px = static_cast<float>(x);
         const auto py = static_cast<float>(y);
-        return px >= f.box.x - 1 && px <= f.box.x + f.box.width + 1 && py >= f.box.y - 1 && py <= f.box.y + f.box.height + 1;
+        return px >= f.box.x - 1 && px <= f.box.x + f.box.width + 1 && py >= f.box.y - 1 &&
+               py <= f.box.y + f.box.height + 1;
       });
       for (int c = 0; c < 3; ++c) {
         ASSERT_GE(layers.highlight(x, y, c), 0.0F);

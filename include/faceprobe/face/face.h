@@ -70,6 +70,8 @@ class FaceFinder {
   ~FaceFinder();
   FaceFinder(FaceFinder&&) noexcept;
   FaceFinder& operator=(FaceFinder&&) noexcept;
+  FaceFinder(const FaceFinder&) = delete;
+  FaceFinder& operator=(const FaceFinder&) = delete;
 
   // Faces of a linear photo, left to right by box centre; empty when there is none.
   std::vector<Face> find(const Image& linear, const Camera& camera) const;

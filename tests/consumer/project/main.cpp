@@ -62,10 +62,11 @@ bool no_face_is_an_error() {
 }
 
 void print_lights(const char* photo) {
-  const faceprobe::pipeline::Estimate estimate = faceprobe::pipeline::Estimator().estimate(faceprobe::io::load_photo(photo));
+  const faceprobe::pipeline::Estimate estimate =
+      faceprobe::pipeline::Estimator().estimate(faceprobe::io::load_photo(photo));
   for (const faceprobe::lighting::MainLight& light : estimate.faces[estimate.largest].lights) {
-    std::printf("azimuth %+.0f, elevation %+.0f degrees: %.0f %% of the energy\n", faceprobe::azimuth_deg(light.direction),
-                faceprobe::elevation_deg(light.direction), 100 * light.share);
+    std::printf("azimuth %+.0f, elevation %+.0f degrees: %.0f %% of the energy\n",
+                faceprobe::azimuth_deg(light.direction), faceprobe::elevation_deg(light.direction), 100 * light.share);
   }
 }
 
