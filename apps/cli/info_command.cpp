@@ -20,7 +20,8 @@ std::string clipped_share(const io::Photo& photo) {
   std::size_t clipped = 0;
   for (const std::uint8_t flags : photo.clipped.values()) clipped += (flags & 7) != 0 ? 1U : 0U;
   char text[32];
-  std::snprintf(text, sizeof text, "%.2f %%", 100.0 * static_cast<double>(clipped) / static_cast<double>(photo.clipped.pixel_count()));
+  std::snprintf(text, sizeof text, "%.2f %%",
+                100.0 * static_cast<double>(clipped) / static_cast<double>(photo.clipped.pixel_count()));
   return text;
 }
 
@@ -38,10 +39,11 @@ nlohmann::ordered_json describe(const std::string& source, const io::Photo& phot
   out["faces"] = nlohmann::ordered_json::array();
   for (const face::Face& face : faces) {
     const Eigen::Vector3d position = face.position_m();
-    out["faces"].push_back({{"box_px", {{"x", face.box.x}, {"y", face.box.y}, {"width", face.box.width}, {"height", face.box.height}}},
-                            {"score", face.score},
-                            {"position_m", {position.x(), position.y(), position.z()}},
-                            {"yaw_deg", azimuth_deg(face.camera_from_face.rotation().col(2))}});
+    out["faces"].push_back(
+        {{"box_px", {{"x", face.box.x}, {"y", face.box.y}, {"width", face.box.width}, {"height", face.box.height}}},
+         {"score", face.score},
+         {"position_m", {position.x(), position.y(), position.z()}},
+         {"yaw_deg", azimuth_deg(face.camera_from_face.rotation().col(2))}});
   }
   out["warnings"] = photo.warnings;
   return out;
@@ -54,9 +56,9 @@ void print(const nlohmann::ordered_json& d) {
               d["grey"].get<bool>() ? ", grey" : "", d["clipped"].get<std::string>().c_str());
   for (const auto& face : d["faces"]) {
     std::printf("  face %.0f x %.0f px at (%.0f, %.0f), %.2f m away, turned %+.0f deg, score %.2f\n",
-                face["box_px"]["width"].get<double>(), face["box_px"]["height"].get<double>(), face["box_px"]["x"].get<double>(),
-                face["box_px"]["y"].get<double>(), -face["position_m"][2].get<double>(), face["yaw_deg"].get<double>(),
-                face["score"].get<double>());
+                face["box_px"]["width"].get<double>(), face["box_px"]["height"].get<double>(),
+                face["box_px"]["x"].get<double>(), face["box_px"]["y"].get<double>(),
+                -face["position_m"][2].get<double>(), face["yaw_deg"].get<double>(), face["score"].get<double>());
   }
   if (d["faces"].empty()) std::printf("  no face\n");
   for (const auto& warning : d["warnings"]) std::printf("  %s\n", warning.get<std::string>().c_str());

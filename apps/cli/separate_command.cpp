@@ -45,8 +45,9 @@ void add_separate(CLI::App& program, Action& action) {
   add_inputs(*command, *options);
   command->add_option("-o,--output", options->output, "folder for highlight.exr and diffuse.exr")->capture_default_str();
   add_face_options(*command, *options);
-  command->footer("The layers are linear, 1 = the photo's white. The highlight layer is black outside the faces' skin, where the\n"
-                  "diffuse layer is the photo itself.\n\nExample:\n  faceprobe separate portrait.jpg -o layers --separator yang");
+  command->footer(
+      "The layers are linear, 1 = the photo's white. The highlight layer is black outside the faces' skin, where the\n"
+      "diffuse layer is the photo itself.\n\nExample:\n  faceprobe separate portrait.jpg -o layers --separator yang");
   command->callback([options, &action] { action = [options] { return run(*options); }; });
 }
 

@@ -24,15 +24,18 @@ int whole_number(const std::string& text, const std::string& what) {
 
 void add_inputs(CLI::App& command, SharedOptions& options) {
   command.add_option("PHOTO", options.inputs, "photos: JPEG, PNG, TIFF, WebP, HEIC, EXR, HDR")->required();
-  command.add_option("--max-pixels", options.limits.max_pixels, "largest photo accepted, in pixels")->capture_default_str();
-  command.add_option("--max-bytes", options.limits.max_file_bytes, "largest file accepted, in bytes")->capture_default_str();
+  command.add_option("--max-pixels", options.limits.max_pixels, "largest photo accepted, in pixels")
+      ->capture_default_str();
+  command.add_option("--max-bytes", options.limits.max_file_bytes, "largest file accepted, in bytes")
+      ->capture_default_str();
   command.add_option("--threads", options.threads, "threads; 0 = all")->capture_default_str()->check(CLI::Range(0, 1024));
 }
 
 void add_face_options(CLI::App& command, SharedOptions& options) {
   command.add_option("--separator", options.separator, "highlight separator: tan, yang, shen")->capture_default_str();
-  command.add_option("--landmarks", options.landmarks,
-                     "x1,y1,... in pixels instead of detection: 5 points (eyes left to right, nose tip, mouth corners) or 68");
+  command.add_option(
+      "--landmarks", options.landmarks,
+      "x1,y1,... in pixels instead of detection: 5 points (eyes left to right, nose tip, mouth corners) or 68");
   command.add_option("--focal-px", options.focal_px, "focal length in pixels; default from EXIF, else a 50 mm lens");
   command.add_flag("--deterministic", options.deterministic, "bitwise the same result for any number of threads");
   command.add_option("--device", options.device, "auto, cpu or cuda[:N]")->capture_default_str();
@@ -83,8 +86,9 @@ int parse_map_width(const std::string& text) {
 
 pipeline::EstimateOptions estimate_options(const SharedOptions& options) {
   if (options.device == "cuda" || options.device.rfind("cuda:", 0) == 0) {
-    throw Error(ExitCode::kDevice, "--device " + options.device +
-                                       " is not there: this version computes on the processor only. Use --device auto or cpu.");
+    throw Error(ExitCode::kDevice,
+                "--device " + options.device +
+                    " is not there: this version computes on the processor only. Use --device auto or cpu.");
   }
   if (options.device != "auto" && options.device != "cpu") {
     throw Error(ExitCode::kUsage, "--device takes auto, cpu or cuda[:N], found '" + options.device + "'.");
@@ -101,7 +105,7 @@ pipeline::EstimateOptions estimate_options(const SharedOptions& options) {
   out.layer_px = options.layer_px;
   out.threads = options.threads;
   out.deterministic = options.deterministic;
-  if (options.focal_px != 0) out.focal_px = options.focal_px;
+  out.focal_px = options.focal_px;
   if (!options.landmarks.empty()) out.landmarks_px = parse_landmarks(options.landmarks);
   if (const std::string fault = out.validate(); !fault.empty()) throw Error(ExitCode::kUsage, fault);
   return out;

@@ -5,6 +5,7 @@
 #include "faceprobe/pipeline/estimate.h"
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,14 +13,14 @@ namespace faceprobe::cli {
 
 struct SharedOptions {
   std::vector<std::string> inputs;
-  std::string separator = "yang";
-  std::string solver = "transport";
+  std::string separator{highlight::separator_name(pipeline::EstimateOptions{}.separator)};
+  std::string solver{lighting::solver_name(pipeline::EstimateOptions{}.solve.solver)};
   std::string landmarks;
   std::string geometry = "mesh";
-  double focal_px = 0;
-  int iterations = 50;
+  std::optional<double> focal_px;
+  int iterations = pipeline::EstimateOptions{}.solve.iterations;
   std::string size = "256";
-  int layer_px = 512;
+  int layer_px = pipeline::EstimateOptions{}.layer_px;
   int threads = 0;
   bool deterministic = false;
   std::string device = "auto";

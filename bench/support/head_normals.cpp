@@ -36,8 +36,10 @@ Mesh read_obj(const std::filesystem::path& path, int vertex_limit) {
       std::vector<int> polygon;
       std::string corner;
       while (words >> corner) polygon.push_back(std::stoi(corner) - 1);
-      if (vertex_limit > 0 && std::any_of(polygon.begin(), polygon.end(), [&](int i) { return i >= vertex_limit; })) continue;
-      for (std::size_t k = 2; k < polygon.size(); ++k) mesh.triangles.emplace_back(polygon[0], polygon[k - 1], polygon[k]);
+      if (vertex_limit > 0 && std::any_of(polygon.begin(), polygon.end(), [&](int i) { return i >= vertex_limit; }))
+        continue;
+      for (std::size_t k = 2; k < polygon.size(); ++k)
+        mesh.triangles.emplace_back(polygon[0], polygon[k - 1], polygon[k]);
     }
   }
   if (mesh.triangles.empty()) throw Error(ExitCode::kInput, path.string() + " holds no faces.");
@@ -65,7 +67,8 @@ lighting::Observations head_observations(const std::filesystem::path& obj, int l
   const float scale = static_cast<float>(long_side_px) / (high.y() - low.y());
   const int width = static_cast<int>((high.x() - low.x()) * scale) + 1;
   const int height = long_side_px + 1;
-  std::vector<float> depth(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), -std::numeric_limits<float>::max());
+  std::vector<float> depth(static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
+                           -std::numeric_limits<float>::max());
   std::vector<Eigen::Vector3f> seen(depth.size(), Eigen::Vector3f::Zero());
   for (const Eigen::Vector3i& t : mesh.triangles) {
     std::array<Eigen::Vector3f, 3> p;
@@ -88,7 +91,8 @@ lighting::Observations head_observations(const std::filesystem::path& obj, int l
         const float w = 1 - u - v;
         if (u < 0 || v < 0 || w < 0) continue;
         const float z = u * p[0].z() + v * p[1].z() + w * p[2].z();
-        const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+        const std::size_t at =
+            static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
         if (z <= depth[at]) continue;
         depth[at] = z;
         seen[at] = u * normals[static_cast<std::size_t>(t[0])] + v * normals[static_cast<std::size_t>(t[1])] +
@@ -102,7 +106,8 @@ lighting::Observations head_observations(const std::filesystem::path& obj, int l
   }
   lighting::Observations observations;
   observations.resize(static_cast<Eigen::Index>(visible.size()));
-  for (std::size_t i = 0; i < visible.size(); ++i) observations.normal.row(static_cast<Eigen::Index>(i)) = visible[i].transpose();
+  for (std::size_t i = 0; i < visible.size(); ++i)
+    observations.normal.row(static_cast<Eigen::Index>(i)) = visible[i].transpose();
   observations.view.rowwise() = Eigen::RowVector3f(0, 0, 1);
   return observations;
 }

@@ -38,8 +38,8 @@ double rmse(const Image& a, float gain_a, const Image& b, float gain_b) {
 
 }  // namespace
 
-RelightingError relighting_error(const Eigen::MatrixX3f& truth, const Eigen::MatrixX3f& estimate, const SphereGrid& grid,
-                                 int size_px) {
+RelightingError relighting_error(const Eigen::MatrixX3f& truth, const Eigen::MatrixX3f& estimate,
+                                 const SphereGrid& grid, int size_px) {
   using render::SphereMaterial;
   const auto ball = [&](const Eigen::MatrixX3f& light, SphereMaterial material) {
     return render::render_sphere(light, grid, {.material = material, .size_px = size_px});
@@ -50,7 +50,8 @@ RelightingError relighting_error(const Eigen::MatrixX3f& truth, const Eigen::Mat
   const float gain_estimate = 1.0F / brightest(diffuse_estimate);
   RelightingError error;
   error.diffuse = rmse(diffuse_truth, gain_truth, diffuse_estimate, gain_estimate);
-  error.mirror = rmse(ball(truth, SphereMaterial::kMirror), gain_truth, ball(estimate, SphereMaterial::kMirror), gain_estimate);
+  error.mirror =
+      rmse(ball(truth, SphereMaterial::kMirror), gain_truth, ball(estimate, SphereMaterial::kMirror), gain_estimate);
   return error;
 }
 

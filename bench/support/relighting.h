@@ -13,7 +13,7 @@ struct RelightingError {
   double mirror = 0;
 };
 
-RelightingError relighting_error(const Eigen::MatrixX3f& truth, const Eigen::MatrixX3f& estimate, const SphereGrid& grid,
-                                 int size_px = 64);
+RelightingError relighting_error(const Eigen::MatrixX3f& truth, const Eigen::MatrixX3f& estimate,
+                                 const SphereGrid& grid, int size_px = 64);
 
 }  // namespace faceprobe::bench

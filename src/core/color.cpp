@@ -25,7 +25,8 @@ float linear_from_srgb(float encoded) {
 
 float srgb_from_linear(float linear) {
   const float magnitude = std::abs(linear);
-  const float encoded = magnitude <= 0.0031308F ? magnitude * 12.92F : 1.055F * std::pow(magnitude, 1.0F / 2.4F) - 0.055F;
+  const float encoded =
+      magnitude <= 0.0031308F ? magnitude * 12.92F : 1.055F * std::pow(magnitude, 1.0F / 2.4F) - 0.055F;
   return std::copysign(encoded, linear);
 }
 
@@ -36,7 +37,8 @@ ByteImage encode_srgb(const Image& linear, float gain) {
     std::vector<std::uint8_t> codes(kSteps + 1);
     for (int i = 0; i <= kSteps; ++i) {
       const float root = static_cast<float>(i) / static_cast<float>(kSteps);
-      codes[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(std::lround(255.0F * srgb_from_linear(root * root)));
+      codes[static_cast<std::size_t>(i)] =
+          static_cast<std::uint8_t>(std::lround(255.0F * srgb_from_linear(root * root)));
     }
     return codes;
   }();
@@ -68,7 +70,8 @@ float exposure_for_quantile(const Image& linear, float quantile, float level) {
     }
   }
   if (values.empty()) return 1.0F;
-  const auto rank = static_cast<std::ptrdiff_t>(std::clamp(quantile, 0.0F, 1.0F) * static_cast<float>(values.size() - 1));
+  const auto rank =
+      static_cast<std::ptrdiff_t>(std::clamp(quantile, 0.0F, 1.0F) * static_cast<float>(values.size() - 1));
   std::nth_element(values.begin(), values.begin() + rank, values.end());
   const float found = values[static_cast<std::size_t>(rank)];
   return found > 0.0F ? level / found : 1.0F;

@@ -21,7 +21,9 @@ Eigen::Vector2f uv_from_direction(const Eigen::Vector3f& direction) {
   return {static_cast<float>(u >= 1.0 ? 0.0 : u), static_cast<float>(v)};
 }
 
-float solid_angle_density(float v) { return static_cast<float>(2.0 * kPi * kPi * std::sin(kPi * static_cast<double>(v))); }
+float solid_angle_density(float v) {
+  return static_cast<float>(2.0 * kPi * kPi * std::sin(kPi * static_cast<double>(v)));
+}
 
 double texel_solid_angle(int y, int width, int height) {
   const double top = std::cos(kPi * y / height);

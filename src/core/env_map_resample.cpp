@@ -41,7 +41,8 @@ EnvMap area_averaged(const EnvMap& map, int width, int height) {
         const double overlap_y = std::min<double>(row + 1, (y + 1) * ratio_y) - std::max<double>(row, y * ratio_y);
         const double row_weight = overlap_y * texel_solid_angle(row, map.width(), map.height());
         for (int column = first_column; column < last_column; ++column) {
-          const double overlap_x = std::min<double>(column + 1, (x + 1) * ratio_x) - std::max<double>(column, x * ratio_x);
+          const double overlap_x =
+              std::min<double>(column + 1, (x + 1) * ratio_x) - std::max<double>(column, x * ratio_x);
           const double w = row_weight * overlap_x;
           sum += w * Eigen::Map<const Eigen::Vector3f>(map.radiance().pixel(column, row)).cast<double>();
           weight += w;
@@ -79,8 +80,12 @@ EnvMap resize(const EnvMap& map, int width, int height) {
   return out;
 }
 
-EnvMap to_orientation(const EnvMap& map, Orientation orientation) { return rolled(map, roll_columns(map, orientation)); }
+EnvMap to_orientation(const EnvMap& map, Orientation orientation) {
+  return rolled(map, roll_columns(map, orientation));
+}
 
-EnvMap from_orientation(const EnvMap& map, Orientation orientation) { return rolled(map, -roll_columns(map, orientation)); }
+EnvMap from_orientation(const EnvMap& map, Orientation orientation) {
+  return rolled(map, -roll_columns(map, orientation));
+}
 
 }  // namespace faceprobe

@@ -79,7 +79,8 @@ int SphereGrid::cell_of(const Eigen::Vector3f& direction) const {
   const double spread = n * std::sqrt(3.0 * (1.0 - std::abs(height)));
   const int ascending = static_cast<int>(within * spread);
   const int descending = static_cast<int>((1.0 - within) * spread);
-  const int k = std::min(n, ascending + descending + 1);  // ring from the nearer pole; rounding at the belt's edge may give n + 1
+  const int k =
+      std::min(n, ascending + descending + 1);  // ring from the nearer pole; rounding at the belt's edge may give n + 1
   int place = static_cast<int>(std::floor(quarter * k));
   place = std::clamp(place, 0, 4 * k - 1);
   return height > 0 ? 2 * k * (k - 1) + place : cell_count() - 2 * k * (k + 1) + place;

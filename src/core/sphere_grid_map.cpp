@@ -14,8 +14,9 @@ Eigen::MatrixX3f grid_from_env_map(const EnvMap& map, const SphereGrid& grid) {
   for (int y = 0; y < map.height() * split; ++y) {
     const double solid_angle = texel_solid_angle(y, map.width() * split, map.height() * split);
     for (int x = 0; x < map.width() * split; ++x) {
-      const Eigen::Vector3f d = direction_from_uv({(static_cast<float>(x) + 0.5F) / static_cast<float>(map.width() * split),
-                                                   (static_cast<float>(y) + 0.5F) / static_cast<float>(map.height() * split)});
+      const Eigen::Vector3f d =
+          direction_from_uv({(static_cast<float>(x) + 0.5F) / static_cast<float>(map.width() * split),
+                             (static_cast<float>(y) + 0.5F) / static_cast<float>(map.height() * split)});
       const int cell = grid.cell_of(d);
       const Eigen::Map<const Eigen::RowVector3f> radiance(map.radiance().pixel(x / split, y / split));
       energy.row(cell) += solid_angle * radiance.cast<double>();

@@ -11,7 +11,7 @@ namespace {
 // ESTIMATES. Skin locus in linear Rec.709 from light (r/g 1.8, b/g .74) over medium (2.4, .56) to dark skin (2.7, .54).
 const Eigen::Array2d kSkinLogRatio(std::log(2.2), std::log(0.60));  // mean of log(r/g), log(b/g)
 constexpr double kSkinSigma = 0.20;                                 // scatter of people along and across the locus
-constexpr double kWhiteBalanceSigma = 0.12;                         // what a camera's white balance leaves of the light's colour
+constexpr double kWhiteBalanceSigma = 0.12;  // what a camera's white balance leaves of the light's colour
 // Lips and brows are darker than the skin around them by more than shading explains.
 constexpr std::array<float, kSkinRegionCount> kRelativeLuminance = {1, 1, 1, 1, 0.75F, 1, 1, 1, 0.5F, 1};
 
@@ -53,8 +53,7 @@ void box_blur(Image& image, int radius, bool along_rows) {
 
 }  // namespace
 
-AlbedoModel fit_albedo(const Image& diffuse, const ByteImage& skin_region, const ByteImage& clipped,
-                       bool grey) {
+AlbedoModel fit_albedo(const Image& diffuse, const ByteImage& skin_region, const ByteImage& clipped, bool grey) {
   if (!diffuse.same_size(skin_region) || !diffuse.same_size(clipped) || diffuse.channels() != 3) {
     throw std::invalid_argument("Albedo needs a three-channel diffuse layer and region and clip maps of its size.");
   }
@@ -66,13 +65,14 @@ AlbedoModel fit_albedo(const Image& diffuse, const ByteImage& skin_region, const
       if (region < 1 || region > kSkinRegionCount || clipped(x, y) != 0) continue;
       const float* rgb = diffuse.pixel(x, y);
       regions[static_cast<std::size_t>(region - 1)].add(rgb);
-      const bool own_colour = region - 1 == static_cast<int>(SkinRegion::kLips) || region - 1 == static_cast<int>(SkinRegion::kBrows);
+      const bool own_colour =
+          region - 1 == static_cast<int>(SkinRegion::kLips) || region - 1 == static_cast<int>(SkinRegion::kBrows);
       if (!own_colour) all.add(rgb);
     }
   }
   AlbedoModel model;
-  const Eigen::Array3d prior_skin =
-      grey ? Eigen::Array3d::Ones().eval() : Eigen::Array3d(std::exp(kSkinLogRatio[0]), 1.0, std::exp(kSkinLogRatio[1]));
+  const Eigen::Array3d prior_skin = grey ? Eigen::Array3d::Ones().eval()
+                                         : Eigen::Array3d(std::exp(kSkinLogRatio[0]), 1.0, std::exp(kSkinLogRatio[1]));
   model.light_colour.setOnes();
   model.region_albedo.fill(with_luminance(prior_skin, kSkinLuminance));
   if (all.count < 1 || !(all.sum.minCoeff() > 0)) return model;

@@ -11,10 +11,10 @@
 namespace faceprobe::lighting {
 
 struct HorizonPlace {
-  int before = 0;        // the two stored azimuths around the direction
+  int before = 0;  // the two stored azimuths around the direction
   int after = 0;
-  float fraction = 0;    // of the way from one to the other
-  float elevation = 0;   // over the image plane, radians
+  float fraction = 0;   // of the way from one to the other
+  float elevation = 0;  // over the image plane, radians
 };
 
 using HorizonProfile = std::array<float, kHorizonAzimuths>;  // elevations, radians

@@ -55,7 +55,8 @@ std::string MainLightOptions::validate() const {
 std::vector<MainLight> main_lights(const Eigen::MatrixX3f& radiance, const SphereGrid& grid,
                                    const MainLightOptions& options, const Eigen::VectorXf& confidence) {
   if (const std::string fault = options.validate(); !fault.empty()) throw std::invalid_argument(fault);
-  if (radiance.rows() != grid.cell_count() || (confidence.size() > 0 && confidence.size() != radiance.rows())) throw std::invalid_argument("Main lights need one radiance, and one confidence or none, per cell.");
+  if (radiance.rows() != grid.cell_count() || (confidence.size() > 0 && confidence.size() != radiance.rows()))
+    throw std::invalid_argument("Main lights need one radiance, and one confidence or none, per cell.");
   const Eigen::VectorXd level = luminance_of(radiance);
   const double energy = level.sum() * grid.cell_solid_angle();
   if (!(energy > 0)) return {};
@@ -94,8 +95,8 @@ std::vector<MainLight> main_lights(const Eigen::MatrixX3f& radiance, const Spher
       const Eigen::Vector3f d = grid.direction(j);
       const float to_peak = d.dot(grid.direction(peak));
       if (to_peak < least_cosine || level[j] <= ambient) continue;
-      const bool nearest = std::all_of(peaks.begin(), peaks.end(),
-                                       [&](int other) { return d.dot(grid.direction(other)) <= to_peak; });
+      const bool nearest =
+          std::all_of(peaks.begin(), peaks.end(), [&](int other) { return d.dot(grid.direction(other)) <= to_peak; });
       if (!nearest) continue;
       const double above = (level[j] - ambient) * grid.cell_solid_angle();
       // Squared weights keep the direction with the peak when the neighbourhood holds a broad, lopsided glow.
@@ -114,7 +115,8 @@ std::vector<MainLight> main_lights(const Eigen::MatrixX3f& radiance, const Spher
   }
   std::stable_sort(lights.begin(), lights.end(),
                    [](const MainLight& a, const MainLight& b) { return a.irradiance > b.irradiance; });
-  if (lights.size() > static_cast<std::size_t>(options.max_lights)) lights.resize(static_cast<std::size_t>(options.max_lights));
+  if (lights.size() > static_cast<std::size_t>(options.max_lights))
+    lights.resize(static_cast<std::size_t>(options.max_lights));
   return lights;
 }
 

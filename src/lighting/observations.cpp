@@ -1,6 +1,5 @@
 #include "faceprobe/lighting/observations.h"
 
-
 namespace faceprobe::lighting {
 
 void Observations::resize(Eigen::Index patches) {
@@ -17,8 +16,8 @@ void Observations::resize(Eigen::Index patches) {
 
 std::string Observations::validate() const {
   const Eigen::Index n = count();
-  if (view.rows() != n || highlight.rows() != n || shading.rows() != n || clipped.rows() != n || roughness.size() != n ||
-      specular_albedo.size() != n || weight.size() != n) {
+  if (view.rows() != n || highlight.rows() != n || shading.rows() != n || clipped.rows() != n ||
+      roughness.size() != n || specular_albedo.size() != n || weight.size() != n) {
     return "Observations need as many views, layers, flags, reflectances and weights as normals.";
   }
   if (horizon.rows() != 0 && (horizon.rows() != n || horizon.cols() != kHorizonAzimuths)) {

@@ -38,8 +38,7 @@ Eigen::MatrixXf back_projected(const RowMatrix& transport, Eigen::Index channels
     for (int b = first; b < last; ++b) {
       const Block block = block_of(b, transport.rows());
       const Eigen::MatrixXf values = ratios(block);
-      partial[static_cast<std::size_t>(b)].noalias() =
-          transport.middleRows(block.at, block.size).transpose() * values;
+      partial[static_cast<std::size_t>(b)].noalias() = transport.middleRows(block.at, block.size).transpose() * values;
     }
   });
   Eigen::MatrixXf sum = Eigen::MatrixXf::Zero(transport.cols(), channels);
@@ -79,8 +78,8 @@ RichardsonLucyResult richardson_lucy(const RowMatrix& transport, const Eigen::Ve
   RichardsonLucyResult result;
   result.estimate = start;
   const Eigen::Index channels = observed.cols();
-  result.sensitivity =
-      back_projected(transport, 1, options.threads, [&](const Block& b) -> Eigen::MatrixXf { return weight.segment(b.at, b.size); });
+  result.sensitivity = back_projected(transport, 1, options.threads,
+                                      [&](const Block& b) -> Eigen::MatrixXf { return weight.segment(b.at, b.size); });
   const float least = options.unobserved_share * std::max(0.0F, result.sensitivity.maxCoeff());
   // Beta of each column: the prior stands in for the sensitivity that a column lacks.
   const Eigen::VectorXf prior =

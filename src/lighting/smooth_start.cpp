@@ -12,7 +12,8 @@ namespace faceprobe::lighting {
 namespace {
 
 constexpr int kRounds = 12;
-constexpr float kLobeExponent = 8.0F;  // about 47 degrees across at half height: wider than any lamp, narrower than a cosine
+constexpr float kLobeExponent =
+    8.0F;  // about 47 degrees across at half height: wider than any lamp, narrower than a cosine
 
 float median_of(std::vector<float> values) {
   if (values.empty()) return 0.0F;

@@ -19,10 +19,10 @@ const Eigen::Vector3f kLuminance(0.2126F, 0.7152F, 0.0722F);
 
 // The two kinds of rows, each weighed so that its data carry the influence the options give it.
 struct Rows {
-  RowMatrix transport;     // highlight rows, then shading rows
+  RowMatrix transport;  // highlight rows, then shading rows
   Eigen::VectorXf weight;
   Eigen::MatrixX3f data;
-  Flags bound;             // #rows x 3
+  Flags bound;  // #rows x 3
   Eigen::Index highlights = 0;
 };
 
@@ -136,7 +136,8 @@ void fill_unobserved(const Eigen::VectorXf& sensitivity, Light& light) {
   // Relative to a typical observed cell: the largest sensitivities belong to grazing mirror angles and say little of the rest.
   const float least = 1e-3F * sensitivity.maxCoeff();
   std::vector<float> reached;
-  std::copy_if(sensitivity.begin(), sensitivity.end(), std::back_inserter(reached), [least](float s) { return s > least; });
+  std::copy_if(sensitivity.begin(), sensitivity.end(), std::back_inserter(reached),
+               [least](float s) { return s > least; });
   light.confidence = (sensitivity / (0.5F * quantile(reached, 0.5))).cwiseMin(1.0F);
   for (int channel = 0; channel < 3; ++channel) {
     std::vector<float> observed;

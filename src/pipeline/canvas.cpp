@@ -112,7 +112,8 @@ ByteImage normals_picture(const face::FaceGeometry& geometry) {
     for (int x = 0; x < normals.width(); ++x) {
       if (geometry.region(x, y) == 0) continue;
       for (int c = 0; c < 3; ++c) {
-        out(x, y, c) = static_cast<std::uint8_t>(std::lround(std::clamp(127.5F * (normals(x, y, c) + 1.0F), 0.0F, 255.0F)));
+        out(x, y, c) =
+            static_cast<std::uint8_t>(std::lround(std::clamp(127.5F * (normals(x, y, c) + 1.0F), 0.0F, 255.0F)));
       }
     }
   }

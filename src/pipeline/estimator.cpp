@@ -69,7 +69,8 @@ FaceEstimate Estimator::Impl::analyse(const io::Photo& photo, const face::Camera
   out.shading = divide(out.layers.diffuse, out.albedo, skin);
   watch.lap("albedo and shading");
 
-  out.observations = observe(out.geometry, out.layers.highlight, out.shading, out.clipped, options.max_patches, options.threads);
+  out.observations =
+      observe(out.geometry, out.layers.highlight, out.shading, out.clipped, options.max_patches, options.threads);
   lighting::Light light = lighting::solve(out.observations, options.solve);
   watch.lap("light");
   static_cast<LightResult&>(out) = light_result(std::move(light), options);
@@ -111,11 +112,13 @@ Estimate Estimator::estimate(const io::Photo& photo) const {
   }
   if (out.faces.empty()) throw Error(ExitCode::kNoFace, "Every face found shows too little skin to read light from.");
   const auto area = [](const FaceEstimate& f) { return f.face.box.width * f.face.box.height; };
-  out.largest = static_cast<std::size_t>(
-      std::max_element(out.faces.begin(), out.faces.end(), [&](const auto& a, const auto& b) { return area(a) < area(b); }) -
-      out.faces.begin());
+  out.largest =
+      static_cast<std::size_t>(std::max_element(out.faces.begin(), out.faces.end(),
+                                                [&](const auto& a, const auto& b) { return area(a) < area(b); }) -
+                               out.faces.begin());
   if (photo.grey) {
-    out.warnings.emplace_back("The photo is grey: the classical separators need colour, so the light comes from shading alone.");
+    out.warnings.emplace_back(
+        "The photo is grey: the classical separators need colour, so the light comes from shading alone.");
   }
   if (out.faces.size() > 1) {
     out.joint = light_result(joint_light(out.faces, impl_->options.solve), impl_->options);

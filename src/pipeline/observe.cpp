@@ -20,17 +20,13 @@ constexpr float kLeastCosine = 0.3F;  // N.V below which a millimetre of mesh er
 // scan (cheeks 5.5 degrees, forehead 15, nose 21, eyes 21, mouth 24), softened so that no region is silenced.
 float geometry_trust(Region region) {
   switch (region) {
-    case Region::kCheeks:
-      return 1.0F;
+    case Region::kCheeks: return 1.0F;
     case Region::kForehead:
     case Region::kChin:
-    case Region::kJaw:
-      return 0.6F;
+    case Region::kJaw: return 0.6F;
     case Region::kNose:
-    case Region::kUpperLip:
-      return 0.4F;
-    default:
-      return 0.25F;
+    case Region::kUpperLip: return 0.4F;
+    default: return 0.25F;
   }
 }
 
@@ -43,9 +39,11 @@ float smooth_step(float low, float high, float value) {
 constexpr double kRimShare = 0.025;
 
 bool near_rim(const face::FaceGeometry& geometry, int x, int y) {
-  const int reach = std::max(1, static_cast<int>(std::lround(kRimShare * std::max(geometry.region.width(), geometry.region.height()))));
+  const int reach = std::max(
+      1, static_cast<int>(std::lround(kRimShare * std::max(geometry.region.width(), geometry.region.height()))));
   const auto outside = [&](int px, int py) {
-    return px < 0 || py < 0 || px >= geometry.region.width() || py >= geometry.region.height() || geometry.region(px, py) == 0;
+    return px < 0 || py < 0 || px >= geometry.region.width() || py >= geometry.region.height() ||
+           geometry.region(px, py) == 0;
   };
   return outside(x - reach, y) || outside(x + reach, y) || outside(x, y - reach) || outside(x, y + reach);
 }
@@ -76,10 +74,11 @@ struct Patch {
 
 ByteImage skin_regions(const face::FaceGeometry& geometry) {
   ByteImage skin(geometry.region.width(), geometry.region.height(), 1);
-  std::transform(geometry.region.values().begin(), geometry.region.values().end(), skin.values().begin(), [](std::uint8_t r) {
-    // face::Region counts the ten skin regions from 1 in the same order as lighting::SkinRegion from 0.
-    return r <= lighting::kSkinRegionCount ? r : std::uint8_t{0};
-  });
+  std::transform(geometry.region.values().begin(), geometry.region.values().end(), skin.values().begin(),
+                 [](std::uint8_t r) {
+                   // face::Region counts the ten skin regions from 1 in the same order as lighting::SkinRegion from 0.
+                   return r <= lighting::kSkinRegionCount ? r : std::uint8_t{0};
+                 });
   return skin;
 }
 
@@ -98,7 +97,8 @@ lighting::Observations observe(const face::FaceGeometry& geometry, const Image& 
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       if (!usable(geometry, flags, x, y)) continue;
-      Patch& patch = grid[static_cast<std::size_t>(y / side) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x / side)];
+      Patch& patch =
+          grid[static_cast<std::size_t>(y / side) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x / side)];
       const auto region = static_cast<Region>(geometry.region(x, y));
       const lighting::SkinReflectance skin_here =
           lighting::skin_reflectance(static_cast<lighting::SkinRegion>(geometry.region(x, y) - 1));

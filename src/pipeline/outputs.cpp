@@ -22,7 +22,8 @@ using Path = std::filesystem::path;
 // What is to be written, in order. Encoding and waiting for the disk overlap when the jobs run side by side.
 class Writer {
  public:
-  Writer(const OutputOptions& output, io::Attributes attributes) : output_(output), attributes_(std::move(attributes)) {}
+  Writer(const OutputOptions& output, io::Attributes attributes)
+      : output_(output), attributes_(std::move(attributes)) {}
 
   void job(const Path& path, std::function<void()> write) {
     written_.push_back(path);
@@ -37,7 +38,8 @@ class Writer {
   // .exr as it is; .png with a gain that makes dim layers visible.
   void layer(const Path& folder, const std::string& name, const Image& image, bool exposed) {
     picture(folder / (name + ".exr"), image);
-    drawing(folder / (name + ".png"), [&image, exposed] { return encode_srgb(image, exposed ? display_gain(image) : 1.0F); });
+    drawing(folder / (name + ".png"),
+            [&image, exposed] { return encode_srgb(image, exposed ? display_gain(image) : 1.0F); });
   }
   void maps(const Path& folder, const LightResult& light) {
     for (const char* extension : {".exr", ".hdr", ".png"}) {
@@ -73,12 +75,13 @@ class Writer {
   std::vector<std::function<void()>> jobs_;
 };
 
-void add_face(const Path& folder, const Estimate& estimate, const io::Photo& photo, std::size_t index, const OutputOptions& output,
-              Writer& writer) {
+void add_face(const Path& folder, const Estimate& estimate, const io::Photo& photo, std::size_t index,
+              const OutputOptions& output, Writer& writer) {
   const FaceEstimate& face = estimate.faces[index];
   io::create_folder(folder);
   if (output.overview) {
-    writer.drawing(folder / "overview.png", [&estimate, &photo, index] { return draw_overview(estimate, photo, index, 1); });
+    writer.drawing(folder / "overview.png",
+                   [&estimate, &photo, index] { return draw_overview(estimate, photo, index, 1); });
   }
   writer.maps(folder, face);
   if (!output.layers) return;

@@ -21,7 +21,8 @@ constexpr Colour kPaper = {24, 25, 28};
 constexpr Colour kInk = {226, 228, 232};
 constexpr Colour kDim = {150, 154, 162};
 constexpr Colour kMesh = {90, 220, 255};
-constexpr std::array<Colour, 5> kLights = {{{255, 92, 80}, {255, 200, 60}, {110, 225, 120}, {110, 170, 255}, {225, 130, 255}}};
+constexpr std::array<Colour, 5> kLights = {
+    {{255, 92, 80}, {255, 200, 60}, {110, 225, 120}, {110, 170, 255}, {225, 130, 255}}};
 
 // Layout on a page 1600 px wide: the photo at the left, six small layers beside it, the map and the balls below.
 constexpr int kWidth = 1600;
@@ -45,8 +46,10 @@ struct Page {
 
 // Part of the photo around the face, as much as fits the frame's shape.
 face::Crop photo_frame(const Estimate& estimate, const face::Box& box) {
-  const double wanted = 1.9 * std::max(static_cast<double>(box.width) * kPhotoHeight / kPhotoWidth, static_cast<double>(box.height));
-  const double height = std::min(wanted, std::max<double>(estimate.photo_height, 1.0 * estimate.photo_width * kPhotoHeight / kPhotoWidth));
+  const double wanted =
+      1.9 * std::max(static_cast<double>(box.width) * kPhotoHeight / kPhotoWidth, static_cast<double>(box.height));
+  const double height = std::min(
+      wanted, std::max<double>(estimate.photo_height, 1.0 * estimate.photo_width * kPhotoHeight / kPhotoWidth));
   const double width = height * kPhotoWidth / kPhotoHeight;
   const auto placed = [](double centre, double size, double limit) {
     return size >= limit ? (limit - size) / 2 : std::clamp(centre - size / 2, 0.0, limit - size);
@@ -173,7 +176,8 @@ void draw_light_list(Page& page, const FaceEstimate& face, int x, int y) {
     const int line = y + 26 + 23 * static_cast<int>(i);
     fill(page.canvas, x, line - 11, 11, 11, kLights[i % kLights.size()]);
     char words[160];
-    std::snprintf(words, sizeof words, "azimuth %+.0f, elevation %+.0f deg   %.0f %% of the energy   %.2f sr   rgb %.2f %.2f %.2f",
+    std::snprintf(words, sizeof words,
+                  "azimuth %+.0f, elevation %+.0f deg   %.0f %% of the energy   %.2f sr   rgb %.2f %.2f %.2f",
                   azimuth_deg(light.direction), elevation_deg(light.direction), 100 * light.share, light.solid_angle_sr,
                   light.colour[0], light.colour[1], light.colour[2]);
     page.text(x + 20, line, words, 15, kDim);
@@ -191,9 +195,10 @@ ByteImage draw_overview(const Estimate& estimate, const io::Photo& photo, std::s
 
   char title[200];
   const Eigen::Vector3d at = face.face.position_m();
-  std::snprintf(title, sizeof title, "face %zu of %zu: %.0f px wide, %.2f m away, turned %+.0f deg, tilted %+.0f deg", index + 1,
-                estimate.faces.size(), static_cast<double>(face.face.box.width), at.norm(),
-                azimuth_deg(face.face.camera_from_face.rotation().col(2)), elevation_deg(face.face.camera_from_face.rotation().col(2)));
+  std::snprintf(title, sizeof title, "face %zu of %zu: %.0f px wide, %.2f m away, turned %+.0f deg, tilted %+.0f deg",
+                index + 1, estimate.faces.size(), static_cast<double>(face.face.box.width), at.norm(),
+                azimuth_deg(face.face.camera_from_face.rotation().col(2)),
+                elevation_deg(face.face.camera_from_face.rotation().col(2)));
   page.text(kMargin, kMargin + 18, "Faceprobe", 24, kInk, true);
   page.text(kMargin + 160, kMargin + 18, title, 17, kDim);
 

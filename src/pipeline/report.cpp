@@ -53,12 +53,9 @@ Json light_json(const LightResult& result) {
 
 std::string_view focal_source_name(FocalSource source) {
   switch (source) {
-    case FocalSource::kGiven:
-      return "given";
-    case FocalSource::kExif:
-      return "exif";
-    default:
-      return "default (50 mm on a 36 x 24 mm frame)";
+    case FocalSource::kGiven: return "given";
+    case FocalSource::kExif: return "exif";
+    default: return "default (50 mm on a 36 x 24 mm frame)";
   }
 }
 
@@ -68,17 +65,19 @@ Json face_json(const FaceEstimate& face) {
   const Eigen::Vector3d forward = rotation.col(2);
   Json rows = Json::array();
   for (int r = 0; r < 3; ++r) rows.push_back(array_of(Eigen::Vector3d(rotation.row(r).transpose())));
-  return {{"box_px", {{"x", face.face.box.x}, {"y", face.face.box.y}, {"width", face.face.box.width}, {"height", face.face.box.height}}},
-          {"score", face.face.score},
-          {"rough_landmarks", face.face.rough_landmarks},
-          {"position_m", array_of(face.face.position_m())},
-          {"camera_from_face_rotation", rows},
-          {"yaw_deg", azimuth_deg(forward)},
-          {"pitch_deg", elevation_deg(forward)},
-          {"reprojection_rms_px", face.face.reprojection_rms_px},
-          {"patches", face.observations.count()},
-          {"light_colour_rgb", array_of(face.light_colour)},
-          {"light", light_json(face)}};
+  return {
+      {"box_px",
+       {{"x", face.face.box.x}, {"y", face.face.box.y}, {"width", face.face.box.width}, {"height", face.face.box.height}}},
+      {"score", face.face.score},
+      {"rough_landmarks", face.face.rough_landmarks},
+      {"position_m", array_of(face.face.position_m())},
+      {"camera_from_face_rotation", rows},
+      {"yaw_deg", azimuth_deg(forward)},
+      {"pitch_deg", elevation_deg(forward)},
+      {"reprojection_rms_px", face.face.reprojection_rms_px},
+      {"patches", face.observations.count()},
+      {"light_colour_rgb", array_of(face.light_colour)},
+      {"light", light_json(face)}};
 }
 
 }  // namespace
@@ -88,7 +87,8 @@ std::string report_json(const Estimate& estimate, const io::Photo& photo, const 
   Json report;
   report["schema"] = kReportSchema;
   report["program"] = {{"name", "faceprobe"}, {"version", kVersion}};
-  report["frame"] = "camera: +x right in the photo, +y up, +z towards the viewer; directions from the face to the light";
+  report["frame"] =
+      "camera: +x right in the photo, +y up, +z towards the viewer; directions from the face to the light";
   report["photo"] = {{"source", source},
                      {"sha256", photo.sha256},
                      {"format", photo.format},

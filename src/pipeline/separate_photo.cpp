@@ -11,16 +11,16 @@ namespace {
 
 // The face's crop at the photo's own resolution, on whole pixels, so that layers go back without resampling.
 face::Crop full_crop(const face::Face& face, int width, int height) {
-  face::GeometryOptions options;
-  options.long_side_px = 1 << 20;
-  options.allow_enlarging = false;
-  const face::Crop wide = face::face_crop(face, width, height, options);
+  const face::Crop wide = face::face_crop(face, width, height, {});
   const int left = std::max(0, static_cast<int>(std::floor(wide.x_px)));
   const int top = std::max(0, static_cast<int>(std::floor(wide.y_px)));
   const int right = std::min(width, static_cast<int>(std::ceil(wide.x_px + wide.width / wide.scale)));
   const int bottom = std::min(height, static_cast<int>(std::ceil(wide.y_px + wide.height / wide.scale)));
-  return {.x_px = static_cast<double>(left), .y_px = static_cast<double>(top), .scale = 1.0,
-          .width = std::max(0, right - left), .height = std::max(0, bottom - top)};
+  return {.x_px = static_cast<double>(left),
+          .y_px = static_cast<double>(top),
+          .scale = 1.0,
+          .width = std::max(0, right - left),
+          .height = std::max(0, bottom - top)};
 }
 
 }  // namespace

@@ -2,8 +2,8 @@
 
 #include "faceprobe/core/angles.h"
 
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include <stdexcept>
 
@@ -80,7 +80,8 @@ TEST(EnvMap, RotationMovesALampAndKeepsItsEnergy) {
       map.radiance()(x, y, 0) = static_cast<float>(std::exp(-angle * angle / 200));
     }
   }
-  const Eigen::Matrix3f turn = Eigen::AngleAxisf(static_cast<float>(kPi / 2), Eigen::Vector3f::UnitY()).toRotationMatrix();
+  const Eigen::Matrix3f turn =
+      Eigen::AngleAxisf(static_cast<float>(kPi / 2), Eigen::Vector3f::UnitY()).toRotationMatrix();
   const EnvMap turned = rotate(map, turn);  // +x goes to -z
   EXPECT_GT(turned.sample({0, 0, -1})[0], 0.95F);
   EXPECT_LT(turned.sample({1, 0, 0})[0], 0.01F);

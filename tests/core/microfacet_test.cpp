@@ -3,8 +3,8 @@
 #include "faceprobe/core/angles.h"
 #include "faceprobe/core/sphere_grid.h"
 
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 namespace faceprobe {
 namespace {
@@ -42,7 +42,8 @@ TEST(Microfacet, MetalNeverReflectsMoreThanItReceives) {
     const Eigen::Vector3f view = tilted(angle);
     double reflected = 0;
     for (int j = 0; j < grid.cell_count(); ++j) {
-      reflected += specular_lobe(kUp, view, grid.direction(j), {.roughness = 0.3F, .specular_albedo = 0.25F, .f0 = 1.0F});
+      reflected +=
+          specular_lobe(kUp, view, grid.direction(j), {.roughness = 0.3F, .specular_albedo = 0.25F, .f0 = 1.0F});
     }
     reflected *= grid.cell_solid_angle();
     EXPECT_LE(reflected, 1.0) << angle;
@@ -53,7 +54,9 @@ TEST(Microfacet, MetalNeverReflectsMoreThanItReceives) {
 
 TEST(Microfacet, FresnelRisesAsTheDossierOfSkinSays) {
   // F / F0 at 0, 60 and 75 degrees of incidence: 1.0, 2.1, 8.8.
-  const auto ratio = [](double degrees) { return schlick_fresnel(static_cast<float>(std::cos(radians(degrees))), kSkinF0) / kSkinF0; };
+  const auto ratio = [](double degrees) {
+    return schlick_fresnel(static_cast<float>(std::cos(radians(degrees))), kSkinF0) / kSkinF0;
+  };
   EXPECT_NEAR(ratio(0), 1.0, 1e-6);
   EXPECT_NEAR(ratio(60), 2.1, 0.05);
   EXPECT_NEAR(ratio(75), 8.8, 0.1);

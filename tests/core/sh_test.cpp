@@ -11,7 +11,8 @@ namespace {
 
 TEST(Sh, FirstNineAgreeWithTheirPolynomials) {
   // Ramamoorthi & Hanrahan 2001, Eq. 3, with more digits.
-  for (const Eigen::Vector3d& raw : {Eigen::Vector3d(0.3, -0.5, 0.8), Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(-1, 2, -0.1)}) {
+  for (const Eigen::Vector3d& raw :
+       {Eigen::Vector3d(0.3, -0.5, 0.8), Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(-1, 2, -0.1)}) {
     const Eigen::Vector3d d = raw.normalized();
     const double x = d.x();
     const double y = d.y();
@@ -45,7 +46,8 @@ TEST(Sh, BasisIsOrthonormal) {
 
 TEST(Sh, AdditionTheoremHoldsAtHighOrder) {
   // sum_m Y_lm(d)^2 = (2l + 1) / (4 pi) for every direction, poles included.
-  for (const Eigen::Vector3d& d : {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0.6, 0.64, 0.48), Eigen::Vector3d(0, -1, 0)}) {
+  for (const Eigen::Vector3d& d :
+       {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0.6, 0.64, 0.48), Eigen::Vector3d(0, -1, 0)}) {
     const Eigen::VectorXd y = sh::basis(12, d);
     for (int band = 0; band <= 12; ++band) {
       EXPECT_NEAR(y.segment(band * band, 2 * band + 1).squaredNorm(), (2 * band + 1) / (4 * kPi), 1e-12) << band;

@@ -21,10 +21,13 @@ std::vector<Eigen::MatrixX3f> maps(const SphereGrid& grid) {
   std::vector<Eigen::MatrixX3f> all;
   all.push_back(3.0F * lamp(grid, at(40, 45), 3, 0.1F, {1.1F, 1.0F, 0.8F}));
   all.push_back(lamp(grid, at(-70, 10), 20, 0.03F, {0.8F, 1.0F, 1.2F}));
-  all.push_back(lamp(grid, at(-49, 26), 6, 0.02F) + 1.5F * lamp(grid, at(-8, 26), 6, 0.0F) + lamp(grid, at(43, 28), 6, 0.0F));
-  all.push_back(lamp(grid, at(100, 30), 3, 0.01F, {1.5F, 1.0F, 0.4F}) + 0.5F * lamp(grid, at(10, 60), 3, 0.0F, {0.5F, 1.0F, 0.9F}));
+  all.push_back(lamp(grid, at(-49, 26), 6, 0.02F) + 1.5F * lamp(grid, at(-8, 26), 6, 0.0F) +
+                lamp(grid, at(43, 28), 6, 0.0F));
+  all.push_back(lamp(grid, at(100, 30), 3, 0.01F, {1.5F, 1.0F, 0.4F}) +
+                0.5F * lamp(grid, at(10, 60), 3, 0.0F, {0.5F, 1.0F, 0.9F}));
   Eigen::MatrixX3f overcast(grid.cell_count(), 3);
-  for (int j = 0; j < grid.cell_count(); ++j) overcast.row(j).setConstant(grid.direction(j).y() > 0 ? 0.3F + 0.6F * grid.direction(j).y() : 0.1F);
+  for (int j = 0; j < grid.cell_count(); ++j)
+    overcast.row(j).setConstant(grid.direction(j).y() > 0 ? 0.3F + 0.6F * grid.direction(j).y() : 0.1F);
   all.push_back(overcast);
   return all;
 }

@@ -30,7 +30,7 @@ TEST(Horizon, WallCastsItsShadowAtTheRightAngle) {
   EXPECT_GT(horizon[0], 0.85F);
   EXPECT_LE(horizon[0], 1.0F);
   EXPECT_NEAR(horizon[kHorizonAzimuths / 2], 0.0F, 1e-4F);  // to the left the plane itself is the horizon
-  EXPECT_EQ(horizon_visibility(horizon, direction_from_angles(80, 0).cast<float>()), 0.0F);   // 10 degrees over the plane
+  EXPECT_EQ(horizon_visibility(horizon, direction_from_angles(80, 0).cast<float>()), 0.0F);  // 10 degrees over the plane
   EXPECT_EQ(horizon_visibility(horizon, direction_from_angles(20, 0).cast<float>()), 1.0F);   // 70 degrees
   EXPECT_EQ(horizon_visibility(horizon, direction_from_angles(-80, 0).cast<float>()), 1.0F);  // other side
 }

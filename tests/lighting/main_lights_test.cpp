@@ -37,7 +37,8 @@ TEST(MainLights, SeveralComeByStrengthAndTwinsMerge) {
 
 TEST(MainLights, PeaksThatNothingObservedAreNoLights) {
   const SphereGrid grid(8);
-  const Eigen::MatrixX3f map = lamp(grid, direction_from_angles(60, 20), 10, 0.02F) + lamp(grid, direction_from_angles(-150, 0), 10, 0.0F);
+  const Eigen::MatrixX3f map =
+      lamp(grid, direction_from_angles(60, 20), 10, 0.02F) + lamp(grid, direction_from_angles(-150, 0), 10, 0.0F);
   Eigen::VectorXf confidence = Eigen::VectorXf::Ones(grid.cell_count());
   for (int j = 0; j < grid.cell_count(); ++j) confidence[j] = grid.direction(j).z() > 0 ? 1.0F : 0.1F;
   EXPECT_EQ(main_lights(map, grid).size(), 2U);

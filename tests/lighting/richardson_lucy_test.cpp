@@ -22,7 +22,8 @@ TEST(RichardsonLucy, EstimateIsNonNegativeFluxIsKeptAndLikelihoodNeverFalls) {
   Problem p;
   light_up(p.face, p.grid, lamp(p.grid, {0.5, 0.4, 1}, 8, 0.1F), 0.2F);
   const RichardsonLucyResult result =
-      richardson_lucy(p.transport, p.face.weight, p.face.highlight, {}, p.start, {.iterations = 60, .unobserved_share = 0, .track_likelihood = true});
+      richardson_lucy(p.transport, p.face.weight, p.face.highlight, {}, p.start,
+                      {.iterations = 60, .unobserved_share = 0, .track_likelihood = true});
   EXPECT_GE(result.estimate.minCoeff(), 0.0F);
   // Every step makes the weighted sum of predictions equal that of the data, in exact arithmetic; floats leave 1e-5.
   for (int c = 0; c < 3; ++c) {
@@ -31,7 +32,8 @@ TEST(RichardsonLucy, EstimateIsNonNegativeFluxIsKeptAndLikelihoodNeverFalls) {
   }
   ASSERT_EQ(result.log_likelihood.size(), 61U);
   for (std::size_t i = 1; i < result.log_likelihood.size(); ++i) {
-    EXPECT_GE(result.log_likelihood[i], result.log_likelihood[i - 1] - 1e-6 * std::abs(result.log_likelihood[i - 1])) << i;
+    EXPECT_GE(result.log_likelihood[i], result.log_likelihood[i - 1] - 1e-6 * std::abs(result.log_likelihood[i - 1]))
+        << i;
   }
 }
 
@@ -39,14 +41,16 @@ TEST(RichardsonLucy, TrueLightIsAFixedPoint) {
   Problem p;
   const Eigen::MatrixX3f truth = lamp(p.grid, {-0.3, 0.6, 0.8}, 15, 0.2F);
   light_up(p.face, p.grid, truth);
-  const RichardsonLucyResult result = richardson_lucy(p.transport, p.face.weight, p.face.highlight, {}, truth, {.iterations = 20});
+  const RichardsonLucyResult result =
+      richardson_lucy(p.transport, p.face.weight, p.face.highlight, {}, truth, {.iterations = 20});
   EXPECT_LE((result.estimate - truth).cwiseAbs().maxCoeff(), 1e-3F * truth.maxCoeff());
 }
 
 TEST(RichardsonLucy, UniformLightComesBackUniform) {
   Problem p;
   light_up(p.face, p.grid, Eigen::MatrixX3f::Constant(p.grid.cell_count(), 3, 2.0F));
-  const RichardsonLucyResult result = richardson_lucy(p.transport, p.face.weight, p.face.highlight, {}, p.start, {.iterations = 100});
+  const RichardsonLucyResult result =
+      richardson_lucy(p.transport, p.face.weight, p.face.highlight, {}, p.start, {.iterations = 100});
   const float most = result.sensitivity.maxCoeff();
   for (int j = 0; j < p.grid.cell_count(); ++j) {
     // Well observed cells: the first step already lands on the uniform solution, up to float rounding.
@@ -59,8 +63,8 @@ TEST(RichardsonLucy, UniformLightComesBackUniform) {
 TEST(RichardsonLucy, UnobservedColumnsKeepTheirStart) {
   Problem p;
   light_up(p.face, p.grid, lamp(p.grid, {0, 0, 1}, 10, 0.1F));
-  const RichardsonLucyResult result =
-      richardson_lucy(p.transport, p.face.weight, p.face.highlight, {}, p.start, {.iterations = 10, .unobserved_share = 1e-2F});
+  const RichardsonLucyResult result = richardson_lucy(p.transport, p.face.weight, p.face.highlight, {}, p.start,
+                                                      {.iterations = 10, .unobserved_share = 1e-2F});
   const int behind = p.grid.cell_of({0, 0, -1});
   EXPECT_LT(result.sensitivity[behind], 1e-2F * result.sensitivity.maxCoeff());
   EXPECT_EQ(result.estimate(behind, 0), 0.5F);
@@ -89,7 +93,8 @@ TEST(RichardsonLucy, PriorHoldsWhatIsHardlyObserved) {
   const Eigen::MatrixXf start = Eigen::MatrixXf::Ones(3, 1);
   Eigen::VectorXf weight(3);
   weight << 1.0F, 0.01F, 2.0F;
-  const RichardsonLucyResult result = richardson_lucy(identity, weight, data, {}, start, {.iterations = 30, .prior_weight = 0.1F});
+  const RichardsonLucyResult result =
+      richardson_lucy(identity, weight, data, {}, start, {.iterations = 30, .prior_weight = 0.1F});
   const float beta = 0.1F * 0.99F;
   EXPECT_NEAR(result.estimate(0, 0), 4.0F, 1e-5F);
   EXPECT_NEAR(result.estimate(1, 0), (0.01F * 4 + beta) / (0.01F + beta), 1e-5F);
@@ -100,7 +105,8 @@ TEST(RichardsonLucy, ZeroAndHugeDataStayFinite) {
   Problem p;
   p.face.highlight.setZero(p.face.count(), 3);
   p.face.highlight(3, 0) = 1e20F;
-  const RichardsonLucyResult result = richardson_lucy(p.transport, p.face.weight, p.face.highlight, {}, p.start, {.iterations = 200});
+  const RichardsonLucyResult result =
+      richardson_lucy(p.transport, p.face.weight, p.face.highlight, {}, p.start, {.iterations = 200});
   EXPECT_TRUE(result.estimate.allFinite());
   EXPECT_GE(result.estimate.minCoeff(), 0.0F);
 }
@@ -109,7 +115,9 @@ TEST(RichardsonLucy, BitwiseTheSameForAnyNumberOfThreads) {
   Problem p;
   light_up(p.face, p.grid, lamp(p.grid, {0.5, 0.4, 1}, 8, 0.1F), 0.1F);
   const auto run = [&](int threads) {
-    return richardson_lucy(p.transport, p.face.weight, p.face.highlight, {}, p.start, {.iterations = 15, .threads = threads}).estimate;
+    return richardson_lucy(p.transport, p.face.weight, p.face.highlight, {}, p.start,
+                           {.iterations = 15, .threads = threads})
+        .estimate;
   };
   const Eigen::MatrixXf one = run(1);
   EXPECT_TRUE(one == run(2));

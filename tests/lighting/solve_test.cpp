@@ -3,8 +3,8 @@
 #include "faceprobe/core/error.h"
 #include "synthetic_face.h"
 
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 namespace faceprobe::lighting {
 namespace {
@@ -28,7 +28,8 @@ TEST(Solve, OneLampComesBackWithinOneCell) {
   for (const Solver solver : {Solver::kTransport, Solver::kPaper}) {
     for (const auto& [azimuth, elevation] : {std::pair{0.0, 20.0}, {45.0, 10.0}, {-30.0, 45.0}, {70.0, -20.0}}) {
       Observations face = ellipsoid_face();
-      const Eigen::Vector3d truth = grid.direction(grid.cell_of(direction_from_angles(azimuth, elevation).cast<float>())).cast<double>();
+      const Eigen::Vector3d truth =
+          grid.direction(grid.cell_of(direction_from_angles(azimuth, elevation).cast<float>())).cast<double>();
       light_up(face, grid, lamp(grid, truth, 1, 0.01F));
       SolveOptions options = for_exact_layers(200);
       options.solver = solver;
@@ -75,7 +76,8 @@ TEST(Solve, TurningTheLightTurnsTheAnswer) {
   const Eigen::Vector3d first = brightest_direction(solve(face, {}).radiance, grid);
   light_up(face, grid, lamp(grid, turn * before, 8, 0.05F));
   const Eigen::Vector3d second = brightest_direction(solve(face, {}).radiance, grid);
-  EXPECT_LT(angle_between_deg(turn * first, second), 10);  // the disc is 16 degrees wide; its brightest cell is anywhere in it
+  EXPECT_LT(angle_between_deg(turn * first, second),
+            10);  // the disc is 16 degrees wide; its brightest cell is anywhere in it
 }
 
 TEST(Solve, ScaleAndColourOfTheLightCarryOver) {

@@ -12,10 +12,10 @@ struct Limits {
   std::int64_t max_pixels = 100'000'000;
   int max_side_px = 32768;
   int max_channels = 64;
-  int max_jpeg_scans = 100;                            // each scan of a progressive JPEG costs a pass over the picture
-  std::int64_t max_icc_bytes = 4LL << 20;              // larger profiles are ignored with a warning
-  double max_expansion = 10'000;                       // declared bytes : file bytes ...
-  std::int64_t expansion_free_bytes = 64LL << 20;      // ... once the declared size is over this
+  int max_jpeg_scans = 100;                        // each scan of a progressive JPEG costs a pass over the picture
+  std::int64_t max_icc_bytes = 4LL << 20;          // larger profiles are ignored with a warning
+  double max_expansion = 10'000;                   // declared bytes : file bytes ...
+  std::int64_t expansion_free_bytes = 64LL << 20;  // ... once the declared size is over this
 
   // Empty when usable, else a sentence that says which value is wrong.
   std::string validate() const;

@@ -31,9 +31,9 @@ struct Photo {
   ByteImage clipped;  // H x W x 1, the bits above
   bool grey = false;  // the file has one colour channel, or three that are equal everywhere
   int bits_per_channel = 8;
-  std::string format;        // "jpeg", "png", "tiff", "webp", "heif", "exr", "hdr"
-  std::string colour_space;  // what the file says, e.g. "sRGB (assumed)", "Display P3", "linear"
-  int exif_orientation = 1;  // 1..8 as found; already applied
+  std::string format;              // "jpeg", "png", "tiff", "webp", "heif", "exr", "hdr"
+  std::string colour_space;        // what the file says, e.g. "sRGB (assumed)", "Display P3", "linear"
+  int exif_orientation = 1;        // 1..8 as found; already applied
   std::optional<double> focal_px;  // from EXIF: 35 mm equivalent (diagonal convention) scaled to this picture, in pixels
   std::vector<std::string> warnings;  // sentences for the report
   std::string sha256;                 // of the file's bytes, hex

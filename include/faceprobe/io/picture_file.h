@@ -25,8 +25,8 @@ void write_picture(const std::filesystem::path& path, const ByteImage& image, co
 
 // Lat-long map to .exr (with `envmap = latlong` and Rec.709 chromaticities) or .hdr, columns rolled to `orientation`;
 // .png writes a tone-mapped preview whose exposure puts the 90 % quantile at 0.6. Other extensions: Error(kUsage).
-void write_env_map(const std::filesystem::path& path, const EnvMap& map, Orientation orientation = Orientation::kOpenExr,
-                   const Attributes& attributes = {});
+void write_env_map(const std::filesystem::path& path, const EnvMap& map,
+                   Orientation orientation = Orientation::kOpenExr, const Attributes& attributes = {});
 
 // Linear picture of an .exr or .hdr: 1 or 3 channels as in the file (alpha dropped); non-finite and negative values become 0.
 // Throws Error(kInput) when unreadable or over a limit.

@@ -29,8 +29,8 @@ Solver solver_from_name(std::string_view name);
 
 struct SolveOptions {
   Solver solver = Solver::kTransport;
-  int nside = 16;         // of the sphere grid the light is solved on: 3072 cells
-  int iterations = 50;    // Richardson-Lucy; 20 - 50 is the knee for noisy data
+  int nside = 16;       // of the sphere grid the light is solved on: 3072 cells
+  int iterations = 50;  // Richardson-Lucy; 20 - 50 is the knee for noisy data
   // Transport solver only. Influence of all highlight rows and of all shading rows on the estimate; 0 leaves a kind out. The
   // defaults suit layers from the classical separators, whose highlights are rough (bench_direction); with exact layers the
   // highlights deserve more than the shading (bench_best_case).

@@ -11,12 +11,12 @@
 namespace faceprobe::lighting {
 
 struct MainLight {
-  Eigen::Vector3d direction;     // unit, camera frame, from the face to the light: centroid of the peak
-  Eigen::Vector3d colour;        // linear Rec.709, luminance 1
-  double irradiance = 0;         // luminance x steradian above the surroundings, on a surface that faces the light
-  double peak_radiance = 0;      // luminance of the brightest cell
-  double solid_angle_sr = 0;     // irradiance / peak radiance: the size of a uniform disc with the same peak
-  double share = 0;              // of the whole map's energy (luminance x steradian), 0..1
+  Eigen::Vector3d direction;  // unit, camera frame, from the face to the light: centroid of the peak
+  Eigen::Vector3d colour;     // linear Rec.709, luminance 1
+  double irradiance = 0;      // luminance x steradian above the surroundings, on a surface that faces the light
+  double peak_radiance = 0;   // luminance of the brightest cell
+  double solid_angle_sr = 0;  // irradiance / peak radiance: the size of a uniform disc with the same peak
+  double share = 0;           // of the whole map's energy (luminance x steradian), 0..1
 };
 
 struct MainLightOptions {
@@ -25,7 +25,7 @@ struct MainLightOptions {
   double blur_deg = 4;         // the map is smoothed by a Gaussian of this width first, so that single cells do not win
   double min_share = 0.02;     // of the energy; weaker peaks are texture
   double min_contrast = 1.5;   // peak over the median radiance of the map
-  double min_confidence = 0.3; // of the peak's cell, where confidences are given
+  double min_confidence = 0.3;  // of the peak's cell, where confidences are given
 
   std::string validate() const;
 };

@@ -9,8 +9,8 @@
 namespace faceprobe::lighting {
 
 struct TraceOptions {
-  int neighbours = 8;              // observed normals that a direction is interpolated from
-  float max_normal_gap_deg = 6;    // directions whose mirror normal is further from any observed one stay unobserved
+  int neighbours = 8;            // observed normals that a direction is interpolated from
+  float max_normal_gap_deg = 6;  // directions whose mirror normal is further from any observed one stay unobserved
 };
 
 struct TracedMap {

@@ -41,12 +41,12 @@ struct EstimateOptions {
   std::optional<double> focal_px;
   // Five or 68 landmarks (#points x 2, px) of one face, instead of detection; see face::FaceFinder::from_landmarks.
   std::optional<Eigen::MatrixX2f> landmarks_px;
-  int layer_px = 512;           // long side of the crop that layers and geometry are made at; never enlarged
-  int max_patches = 1500;       // observations per face
-  int map_width = 256;          // of the environment maps; the height is half
-  int sh_order = 2;             // of the coefficients reported
-  int threads = 0;              // 0 = all; handed to every stage
-  bool deterministic = false;   // bitwise the same result for any number of threads
+  int layer_px = 512;          // long side of the crop that layers and geometry are made at; never enlarged
+  int max_patches = 1500;      // observations per face
+  int map_width = 256;         // of the environment maps; the height is half
+  int sh_order = 2;            // of the coefficients reported
+  int threads = 0;             // 0 = all; handed to every stage
+  bool deterministic = false;  // bitwise the same result for any number of threads
 
   // Empty when usable, else a sentence that says which value is wrong.
   std::string validate() const;
@@ -54,22 +54,22 @@ struct EstimateOptions {
 
 // What one light estimate amounts to, in every form people use.
 struct LightResult {
-  lighting::Light light;                      // per cell of SphereGrid(options.solve.nside)
-  EnvMap environment;                         // the same as a lat-long map
-  EnvMap confidence;                          // 0..1 in all three channels
-  Eigen::MatrixX3d sh;                        // (order + 1)^2 x 3 radiance coefficients, see core/sh.h
-  std::vector<lighting::MainLight> lights;    // by falling strength
+  lighting::Light light;                    // per cell of SphereGrid(options.solve.nside)
+  EnvMap environment;                       // the same as a lat-long map
+  EnvMap confidence;                        // 0..1 in all three channels
+  Eigen::MatrixX3d sh;                      // (order + 1)^2 x 3 radiance coefficients, see core/sh.h
+  std::vector<lighting::MainLight> lights;  // by falling strength
 };
 
 struct FaceEstimate : LightResult {
   face::Face face;
-  face::FaceGeometry geometry;       // crop
-  Image picture;                     // the photo in the crop, linear
-  ByteImage clipped;                 // io::Photo flags in the crop
-  highlight::Layers layers;          // crop, skin only
-  Image albedo;                      // crop, linear
-  Image shading;                     // crop: diffuse / albedo, i.e. irradiance / pi; 0 off the skin
-  Eigen::Vector3f light_colour;      // mean light by the skin and white-balance priors, green = 1
+  face::FaceGeometry geometry;   // crop
+  Image picture;                 // the photo in the crop, linear
+  ByteImage clipped;             // io::Photo flags in the crop
+  highlight::Layers layers;      // crop, skin only
+  Image albedo;                  // crop, linear
+  Image shading;                 // crop: diffuse / albedo, i.e. irradiance / pi; 0 off the skin
+  Eigen::Vector3f light_colour;  // mean light by the skin and white-balance priors, green = 1
   lighting::Observations observations;
 };
 
@@ -85,11 +85,11 @@ struct Estimate {
   int photo_height = 0;
   face::Camera camera;
   FocalSource focal_source = FocalSource::kDefault;
-  std::vector<FaceEstimate> faces;   // left to right; never empty
-  std::size_t largest = 0;           // index of the face with the largest box
-  std::optional<LightResult> joint;  // from two faces on: one distant light for all of them
-  std::vector<StageTime> timings;    // in order
-  std::vector<std::string> warnings; // sentences
+  std::vector<FaceEstimate> faces;    // left to right; never empty
+  std::size_t largest = 0;            // index of the face with the largest box
+  std::optional<LightResult> joint;   // from two faces on: one distant light for all of them
+  std::vector<StageTime> timings;     // in order
+  std::vector<std::string> warnings;  // sentences
 };
 
 class Estimator {
@@ -97,6 +97,8 @@ class Estimator {
   // Throws Error(kUsage) when the options do not validate, Error(kModel) when a model file is missing.
   explicit Estimator(EstimateOptions options = {});
   ~Estimator();
+  Estimator(const Estimator&) = delete;
+  Estimator& operator=(const Estimator&) = delete;
   Estimator(Estimator&&) noexcept;
   Estimator& operator=(Estimator&&) noexcept;
 

@@ -7,7 +7,7 @@
 
 namespace faceprobe::pipeline {
 
-// 1600 px wide sRGB picture of one face's estimate. `face` is an index into estimate.faces.
-ByteImage draw_overview(const Estimate& estimate, const io::Photo& photo, std::size_t face, int threads = 0);
+// 1600 px wide sRGB picture of one face's estimate. `index` is one into estimate.faces.
+ByteImage draw_overview(const Estimate& estimate, const io::Photo& photo, std::size_t index, int threads = 0);
 
 }  // namespace faceprobe::pipeline
