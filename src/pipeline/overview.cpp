@@ -137,18 +137,23 @@ void draw_confidence(Page& page, const FaceEstimate& face, int x, int y) {
 }
 
 void draw_balls(Page& page, const FaceEstimate& face, int x, int y, int threads) {
-  // Diffuse and rough balls need no more than 768 cells; the mirror shows the map as it is.
   const SphereGrid grid(static_cast<int>(std::lround(std::sqrt(static_cast<double>(face.light.radiance.rows()) / 12))));
-  const SphereGrid coarse(std::min(8, grid.nside()));
-  const Eigen::MatrixX3f light = grid_from_env_map(face.environment, coarse);
   using render::SphereMaterial;
-  const std::array<std::pair<std::string, SphereMaterial>, 3> balls = {
-      {{"diffuse", SphereMaterial::kDiffuse}, {"matte", SphereMaterial::kMatte}, {"mirror", SphereMaterial::kMirror}}};
+  struct Ball {
+    std::string name;
+    SphereMaterial material;
+    int nside;  // of the light it is lit by: a cosine and a rough lobe see no more, and cost grows with the cells
+  };
+  const std::array<Ball, 3> balls = {{{"diffuse", SphereMaterial::kDiffuse, 4},
+                                      {"matte", SphereMaterial::kMatte, 6},
+                                      {"mirror", SphereMaterial::kMirror, grid.nside()}}};
   float exposure = 1.0F;
   for (std::size_t i = 0; i < balls.size(); ++i) {
-    const bool mirror = balls[i].second == SphereMaterial::kMirror;
-    const Image ball = render::render_sphere(mirror ? face.light.radiance : light, mirror ? grid : coarse,
-                                             {.material = balls[i].second, .size_px = kBall, .threads = threads});
+    const SphereGrid cells(std::min(balls[i].nside, grid.nside()));
+    const Eigen::MatrixX3f light =
+        cells.nside() == grid.nside() ? face.light.radiance : grid_from_env_map(face.environment, cells);
+    const Image ball =
+        render::render_sphere(light, cells, {.material = balls[i].material, .size_px = kBall, .threads = threads});
     Image over(kBall, kBall, 3);
     for (int py = 0; py < kBall; ++py) {
       for (int px = 0; px < kBall; ++px) {
@@ -164,7 +169,7 @@ void draw_balls(Page& page, const FaceEstimate& face, int x, int y, int threads)
       }
     }
     const int left = x + static_cast<int>(i) * (kBall + kMargin);
-    page.text(left, y + 18, balls[i].first + " ball");
+    page.text(left, y + 18, balls[i].name + " ball");
     paste(page.canvas, picture, left, y + kCaption);
   }
 }
