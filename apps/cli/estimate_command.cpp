@@ -70,7 +70,7 @@ int run(const Options& options) {
   double models_s = seconds_since(start);
   int code = 0;
   for (std::size_t i = 0; i < options.inputs.size(); ++i) {
-    // One bad photo among several does not cost the others theirs; the last failure's code is returned.
+    // One bad photo among several does not cost the others theirs: the code is 8 then, the photo's own when it is alone.
     const int one = run_guarded([&] {
       start = Clock::now();
       const io::Photo photo = io::load_photo(options.inputs[i], options.limits);
@@ -79,8 +79,9 @@ int run(const Options& options) {
       for (const std::string& warning : estimate.warnings) spdlog::warn("{}: {}", options.inputs[i], warning);
       start = Clock::now();
       if (map_only) {
-        io::write_env_map(options.output, estimate.faces[estimate.largest].environment, output.orientation,
-                          pipeline::provenance(photo, estimator.options()));
+        io::Attributes attributes = pipeline::provenance(photo, estimator.options());
+        attributes["faceprobe:map_columns"] = pipeline::orientation_name(output.orientation);
+        io::write_env_map(options.output, estimate.faces[estimate.largest].environment, output.orientation, attributes);
         spdlog::info("{}: {} face(s), wrote {}", options.inputs[i], estimate.faces.size(), options.output);
       } else {
         const std::string folder = folder_for(options.output, options, i);

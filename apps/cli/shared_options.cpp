@@ -93,6 +93,10 @@ pipeline::EstimateOptions estimate_options(const SharedOptions& options) {
   if (options.device != "auto" && options.device != "cpu") {
     throw Error(ExitCode::kUsage, "--device takes auto, cpu or cuda[:N], found '" + options.device + "'.");
   }
+  if (!options.landmarks.empty() && options.inputs.size() > 1) {
+    throw Error(ExitCode::kUsage, "--landmarks describes one face of one photo, but there are " +
+                                      std::to_string(options.inputs.size()) + " photos.");
+  }
   if (options.geometry != "mesh") {
     throw Error(ExitCode::kUsage, "--geometry takes mesh, found '" + options.geometry + "'.");
   }

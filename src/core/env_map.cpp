@@ -18,7 +18,8 @@ Eigen::Vector2f uv_from_direction(const Eigen::Vector3f& direction) {
   const Eigen::Vector3d d = direction.cast<double>();
   const double u = 0.5 - std::atan2(d.x(), d.z()) / (2.0 * kPi);
   const double v = std::atan2(std::hypot(d.x(), d.z()), d.y()) / kPi;
-  return {static_cast<float>(u >= 1.0 ? 0.0 : u), static_cast<float>(v)};
+  const auto rounded = static_cast<float>(u);  // may reach 1 although u did not
+  return {rounded >= 1.0F ? 0.0F : rounded, static_cast<float>(v)};
 }
 
 float solid_angle_density(float v) {

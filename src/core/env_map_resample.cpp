@@ -20,9 +20,7 @@ EnvMap rolled(const EnvMap& map, int columns) {
   return out;
 }
 
-int roll_columns(const EnvMap& map, Orientation orientation) {
-  return static_cast<int>(orientation) * (map.width() / 4);
-}
+int roll_columns(const EnvMap& map, Orientation orientation) { return static_cast<int>(orientation) * map.width() / 4; }
 
 // Mean over one target texel of the source texels under it, weighted by solid angle. Exact for integer ratios.
 EnvMap area_averaged(const EnvMap& map, int width, int height) {

@@ -15,6 +15,7 @@ float schlick_fresnel(float cosine, float f0) {
 
 float beckmann(float cosine, float roughness) {
   const float c2 = cosine * cosine;
+  if (c2 < 1e-8F) return 0.0F;  // slopes beyond any surface
   const float m2 = roughness * roughness;
   return std::exp(-(1.0F - c2) / (c2 * m2)) / (m2 * c2 * c2);
 }

@@ -27,6 +27,11 @@ Eigen::MatrixX3f grid_from_env_map(const EnvMap& map, const SphereGrid& grid) {
 }
 
 EnvMap env_map_from_grid(const Eigen::MatrixX3f& cells, const SphereGrid& grid, int width, int height) {
+  // Texels wider than half a cell would miss cells between them: such maps are drawn finer and averaged.
+  if (width < 8 * grid.nside()) {
+    const int finer = (8 * grid.nside() + width - 1) / width;
+    return resize(env_map_from_grid(cells, grid, finer * width, finer * height), width, height);
+  }
   EnvMap map(width, height);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {

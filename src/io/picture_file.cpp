@@ -137,7 +137,8 @@ void write_env_map(const std::filesystem::path& path, const EnvMap& map, Orienta
   const Image& radiance = rolled.radiance();
   const std::string extension = extension_of(path);
   if (extension == ".exr") {
-    write_exr(path, radiance, attributes, true, true);
+    // The attribute promises OpenEXR's own columns, which a rolled map no longer has.
+    write_exr(path, radiance, attributes, true, orientation == Orientation::kOpenExr);
   } else if (extension == ".hdr") {
     write_hdr(path, radiance, attributes);
   } else if (extension == ".png") {

@@ -15,15 +15,16 @@ Solver solver_from_name(std::string_view name) {
 }
 
 std::string SolveOptions::validate() const {
-  if (nside < 2 || nside > 64) return "nside must be from 2 to 64, found " + std::to_string(nside) + ".";
+  if (nside < 2 || nside > 32) return "nside must be from 2 to 32, found " + std::to_string(nside) + ".";
   if (iterations < 1 || iterations > 10'000) {
     return "iterations must be from 1 to 10000, found " + std::to_string(iterations) + ".";
   }
-  if (highlight_weight < 0 || shading_weight < 0 || highlight_weight + shading_weight <= 0) {
+  if (!(highlight_weight >= 0 && shading_weight >= 0 && highlight_weight + shading_weight > 0 &&
+        highlight_weight + shading_weight < 1e6F)) {
     return "The weights of highlights and shading must not be negative, nor both zero.";
   }
-  if (!(prior_weight >= 0)) return "prior_weight must not be negative.";
-  if (max_leak < 0 || max_leak > 1) return "max_leak must lie in [0, 1].";
+  if (!(prior_weight >= 0 && prior_weight < 1e6F)) return "prior_weight must be from 0 to a million.";
+  if (!(max_leak >= 0 && max_leak <= 1)) return "max_leak must lie in [0, 1].";
   if (colour_iterations < 0 || colour_iterations > 1000) return "colour_iterations must be from 0 to 1000.";
   return {};
 }

@@ -47,8 +47,11 @@ Eigen::VectorXd blurred(const Eigen::VectorXd& values, const SphereGrid& grid, d
 
 std::string MainLightOptions::validate() const {
   if (max_lights < 0 || max_lights > 100) return "max_lights must be from 0 to 100.";
-  if (separation_deg <= 0 || separation_deg > 180) return "separation_deg must lie in (0, 180].";
-  if (blur_deg < 0 || blur_deg > 60) return "blur_deg must lie in [0, 60].";
+  if (!(separation_deg > 0 && separation_deg <= 180)) return "separation_deg must lie in (0, 180].";
+  if (!(blur_deg >= 0 && blur_deg <= 60)) return "blur_deg must lie in [0, 60].";
+  if (!(min_share >= 0 && min_share <= 1)) return "min_share must lie in [0, 1].";
+  if (!(min_contrast >= 1 && min_contrast < 1e6)) return "min_contrast must be at least 1.";
+  if (!(min_confidence >= 0 && min_confidence <= 1)) return "min_confidence must lie in [0, 1].";
   return {};
 }
 
@@ -61,7 +64,11 @@ std::vector<MainLight> main_lights(const Eigen::MatrixX3f& radiance, const Spher
   const double energy = level.sum() * grid.cell_solid_angle();
   if (!(energy > 0)) return {};
   const double ambient = median_of(level);
-  const Eigen::VectorXd smooth = blurred(level, grid, radians(options.blur_deg));
+  Eigen::VectorXd smooth = blurred(level, grid, radians(options.blur_deg));
+  // What hardly anything observed is neither a light nor outshines one.
+  for (Eigen::Index j = 0; j < confidence.size(); ++j) {
+    if (confidence[j] < static_cast<float>(options.min_confidence)) smooth[j] = 0;
+  }
 
   // Peaks: cells that nothing within the separation outshines, brightest first.
   std::vector<int> order(static_cast<std::size_t>(grid.cell_count()));
@@ -81,8 +88,7 @@ std::vector<MainLight> main_lights(const Eigen::MatrixX3f& radiance, const Spher
       if (suppressed[static_cast<std::size_t>(j)] && smooth[j] > smooth[cell]) local_maximum = false;
       suppressed[static_cast<std::size_t>(j)] = 1;
     }
-    const bool certain = confidence.size() == 0 || confidence[cell] >= static_cast<float>(options.min_confidence);
-    if (local_maximum && certain) peaks.push_back(cell);
+    if (local_maximum) peaks.push_back(cell);
   }
 
   std::vector<MainLight> lights;
@@ -109,7 +115,7 @@ std::vector<MainLight> main_lights(const Eigen::MatrixX3f& radiance, const Spher
     light.direction = centroid.normalized();
     light.colour = colour / (0.2126 * colour[0] + 0.7152 * colour[1] + 0.0722 * colour[2]);
     light.peak_radiance = peak_radiance;
-    light.solid_angle_sr = light.irradiance / peak_radiance;
+    light.solid_angle_sr = light.irradiance / (peak_radiance - ambient);
     light.share = light.irradiance / energy;
     if (light.share >= options.min_share) lights.push_back(light);
   }

@@ -30,6 +30,7 @@ std::string Observations::validate() const {
   if (highlight.minCoeff() < 0 || shading.minCoeff() < 0) return "Observations hold negative light.";
   if (weight.minCoeff() < 0 || !(weight.maxCoeff() > 0)) return "Observation weights must be positive.";
   if (roughness.minCoeff() < 0.02F || roughness.maxCoeff() > 1.0F) return "Roughness must lie in [.02, 1].";
+  if (!specular_albedo.allFinite() || !(specular_albedo.minCoeff() > 0)) return "Specular albedos must be positive.";
   return {};
 }
 

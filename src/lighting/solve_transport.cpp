@@ -70,6 +70,7 @@ void fit_highlights(const Observations& o, const RowMatrix& highlight_rows, cons
     expected_ratio.push_back(expected[i] / shading[i]);
   }
   const float expected_sum = weighted_sum(weight, expected);
+  if (!(weighted_sum(weight, found) > 0)) return;  // nothing mirrored, nothing to fit
   if (found_ratio.size() < 10 || !(expected_sum > 0)) return;
   const auto limited = [](float gain) { return std::clamp(gain, 0.05F, 20.0F); };
   float gain = options.fit_highlight_gain ? limited(weighted_sum(weight, found) / expected_sum) : 1.0F;
@@ -135,6 +136,7 @@ Eigen::MatrixX3f coloured(const Rows& rows, const Eigen::VectorXf& level, const 
 void fill_unobserved(const Eigen::VectorXf& sensitivity, Light& light) {
   // Relative to a typical observed cell: the largest sensitivities belong to grazing mirror angles and say little of the rest.
   const float least = 1e-3F * sensitivity.maxCoeff();
+  if (!(least > 0)) return;  // the face's own horizon blocks everything
   std::vector<float> reached;
   std::copy_if(sensitivity.begin(), sensitivity.end(), std::back_inserter(reached),
                [least](float s) { return s > least; });
@@ -185,6 +187,7 @@ Light solve_transport(const Observations& observations, const SolveOptions& opti
   if (!(level > 0)) return light;
 
   const Rows rows = stack(patches, transport, options);
+  if (rows.transport.rows() == 0) return light;
   const Flags bound = rows.bound.rowwise().any();
   const RichardsonLucyResult solved = richardson_lucy(rows.transport, rows.weight, rows.data * kLuminance, bound, start,
                                                       rl_options(options, options.iterations));

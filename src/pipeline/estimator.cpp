@@ -118,10 +118,13 @@ Estimate Estimator::estimate(const io::Photo& photo) const {
                                out.faces.begin());
   if (photo.grey) {
     out.warnings.emplace_back(
-        "The photo is grey: the classical separators need colour, so the light comes from shading alone.");
+        impl_->options.solve.solver == lighting::Solver::kPaper
+            ? "The photo is grey: the classical separators need colour and the paper's solver reads highlights only, "
+              "so the map is black."
+            : "The photo is grey: the classical separators need colour, so the light comes from shading alone.");
   }
   if (out.faces.size() > 1) {
-    out.joint = light_result(joint_light(out.faces, impl_->options.solve), impl_->options);
+    out.joint = light_result(joint_light(out.faces, impl_->options), impl_->options);
     watch.lap("joint light");
   }
   return out;

@@ -12,6 +12,21 @@ double energy(const lighting::Light& light) {
   return (light.radiance * Eigen::Vector3f(0.2126F, 0.7152F, 0.0722F)).cast<double>().sum();
 }
 
+lighting::Observations thinned(const lighting::Observations& all, Eigen::Index kept, Eigen::Index step) {
+  const auto rows = Eigen::seqN(Eigen::Index{0}, kept, step);
+  lighting::Observations set;
+  set.normal = all.normal(rows, Eigen::all);
+  set.view = all.view(rows, Eigen::all);
+  set.highlight = all.highlight(rows, Eigen::all);
+  set.shading = all.shading(rows, Eigen::all);
+  set.clipped = all.clipped(rows, Eigen::all);
+  set.roughness = all.roughness(rows);
+  set.specular_albedo = all.specular_albedo(rows);
+  set.weight = all.weight(rows);
+  if (all.horizon.rows() > 0) set.horizon = all.horizon(rows, Eigen::all);
+  return set;
+}
+
 }  // namespace
 
 LightResult light_result(lighting::Light light, const EstimateOptions& options) {
@@ -27,7 +42,7 @@ LightResult light_result(lighting::Light light, const EstimateOptions& options) 
   return result;
 }
 
-lighting::Light joint_light(const std::vector<FaceEstimate>& faces, const lighting::SolveOptions& options) {
+lighting::Light joint_light(const std::vector<FaceEstimate>& faces, const EstimateOptions& options) {
   double log_mean = 0;
   int lit = 0;
   for (const FaceEstimate& face : faces) {
@@ -42,13 +57,16 @@ lighting::Light joint_light(const std::vector<FaceEstimate>& faces, const lighti
   for (const FaceEstimate& face : faces) {
     const double own = energy(face.light);
     if (!(own > 0)) continue;
-    lighting::Observations set = face.observations;
+    // Every step-th patch, standing for its neighbours: memory stays that of one face.
+    const auto step = static_cast<Eigen::Index>(lit);
+    const Eigen::Index kept = (face.observations.count() + step - 1) / step;
+    lighting::Observations set = thinned(face.observations, kept, step);
     const auto gain = static_cast<float>(wanted / own);
     set.highlight *= gain;
     set.shading *= gain;
     sets.push_back(std::move(set));
   }
-  return lighting::solve(lighting::concatenate(sets), options);
+  return lighting::solve(lighting::concatenate(sets), options.solve);
 }
 
 }  // namespace faceprobe::pipeline

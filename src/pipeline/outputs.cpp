@@ -96,6 +96,14 @@ void add_face(const Path& folder, const Estimate& estimate, const io::Photo& pho
 
 }  // namespace
 
+std::string orientation_name(Orientation orientation) {
+  switch (orientation) {
+    case Orientation::kThree: return "three.js, Blender: rolled by a quarter of the width";
+    case Orientation::kDebevec: return "Debevec: rolled by half the width";
+    default: return "OpenEXR: centre = +z";
+  }
+}
+
 std::map<std::string, std::string> provenance(const io::Photo& photo, const EstimateOptions& options) {
   return {{"faceprobe:version", std::string(kVersion)},
           {"faceprobe:frame", "camera: +x right, +y up, +z to the viewer"},
@@ -106,7 +114,9 @@ std::map<std::string, std::string> provenance(const io::Photo& photo, const Esti
 
 std::vector<Path> write_outputs(const Path& folder, const Estimate& estimate, const io::Photo& photo,
                                 const EstimateOptions& options, const std::string& source, const OutputOptions& output) {
-  Writer writer(output, provenance(photo, options));
+  io::Attributes attributes = provenance(photo, options);
+  attributes["faceprobe:map_columns"] = orientation_name(output.orientation);
+  Writer writer(output, std::move(attributes));
   io::create_folder(folder);
   if (estimate.faces.size() == 1) {
     add_face(folder, estimate, photo, 0, output, writer);
@@ -124,7 +134,7 @@ std::vector<Path> write_outputs(const Path& folder, const Estimate& estimate, co
     }
   }
   writer.run(options.threads);
-  // Last, so that a report stands for complete results.
+  // Last: a new report stands for complete results.
   const Path report = folder / "report.json";
   io::write_file_atomically(report, report_json(estimate, photo, options, source));
   std::vector<Path> written = std::move(writer).written();

@@ -96,5 +96,18 @@ TEST(SphereGrid, MapsThereAndBackKeepEnergyAndPlace) {
   EXPECT_LT(angle_between_deg(grid.direction(static_cast<int>(brightest)).cast<double>(), {1, 0.2, 0.4}), 10);
 }
 
+TEST(SphereGrid, SmallMapsDoNotMissSmallLamps) {
+  const SphereGrid grid(16);
+  for (int cell = 0; cell < grid.cell_count(); cell += 97) {
+    Eigen::MatrixX3f cells = Eigen::MatrixX3f::Constant(grid.cell_count(), 3, 1.0F);
+    cells(cell, 0) = 1000.0F;
+    const EnvMap map = env_map_from_grid(cells, grid, 16, 8);
+    const double truth = cells.col(0).cast<double>().sum() * grid.cell_solid_angle();
+    EXPECT_NEAR(map.integral()[0] / truth, 1.0, 1e-3);
+    // The lamp's energy lies around the lamp and is not spread over the sky.
+    EXPECT_LT(map.sample(-grid.direction(cell))[0], 1.5F);
+  }
+}
+
 }  // namespace
 }  // namespace faceprobe

@@ -6,8 +6,8 @@
 //   FaceGeometry g = rasterize(face, camera, mesh, crop);
 //   Eigen::Vector3f n(g.normal_cam.pixel(x, y));
 //
-// The mesh's own normals are good to about 13 degrees (median, against a head scan; see docs/results.md for the
-// command): the nose and the mouth are the worst. Depth and normals are those of the posed mesh; eyes and mouth are
+// The mesh's own normals are good to about 13 degrees (median, against a head
+// scan): the nose and the mouth are the worst. Depth and normals are those of the posed mesh; eyes and mouth are
 // closed over.
 
 #include "faceprobe/core/image.h"

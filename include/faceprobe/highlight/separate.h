@@ -31,7 +31,7 @@ std::string_view separator_name(Separator separator);  // "tan", "yang", "shen"
 Separator separator_from_name(std::string_view name);
 
 struct SeparateOptions {
-  Separator separator = Separator::kShen;
+  Separator separator = Separator::kYang;
   std::array<float, 3> light_colour = {1, 1, 1};  // linear RGB of the light; only the ratio counts
   int threads = 0;
 

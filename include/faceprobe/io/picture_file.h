@@ -23,7 +23,8 @@ void write_picture(const std::filesystem::path& path, const Image& image, const 
 // Already encoded bytes, 1, 3 or 4 channels, to .png.
 void write_picture(const std::filesystem::path& path, const ByteImage& image, const Attributes& attributes = {});
 
-// Lat-long map to .exr (with `envmap = latlong` and Rec.709 chromaticities) or .hdr, columns rolled to `orientation`;
+// Lat-long map to .exr (Rec.709 chromaticities; `envmap = latlong` when the columns
+// are OpenEXR's) or .hdr, columns rolled to `orientation`;
 // .png writes a tone-mapped preview whose exposure puts the 90 % quantile at 0.6. Other extensions: Error(kUsage).
 void write_env_map(const std::filesystem::path& path, const EnvMap& map,
                    Orientation orientation = Orientation::kOpenExr, const Attributes& attributes = {});

@@ -59,7 +59,7 @@ struct Light {
 };
 
 // Throws std::invalid_argument for observations or options that do not validate. No highlights at all is not an error: the
-// shading alone answers then, and without either the light is uniform with confidence 0.
+// shading alone answers then, and without either the light is black with confidence 0.
 Light solve(const Observations& observations, const SolveOptions& options);
 
 // The two solvers by themselves; `solve` picks one by options.solver.

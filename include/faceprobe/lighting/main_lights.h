@@ -15,7 +15,7 @@ struct MainLight {
   Eigen::Vector3d colour;     // linear Rec.709, luminance 1
   double irradiance = 0;      // luminance x steradian above the surroundings, on a surface that faces the light
   double peak_radiance = 0;   // luminance of the brightest cell
-  double solid_angle_sr = 0;  // irradiance / peak radiance: the size of a uniform disc with the same peak
+  double solid_angle_sr = 0;  // irradiance / peak above the surroundings: the size of a uniform disc with the same peak
   double share = 0;           // of the whole map's energy (luminance x steradian), 0..1
 };
 

@@ -5,7 +5,7 @@
 //   e_j <- e_j  [ sum_i a_i T_ij h_i / p_i ] / [ sum_i a_i T_ij ]
 //
 // Estimates stay non-negative, the weighted sum of the predictions equals that of the data after every step, and the likelihood
-// never falls. Observations that are only lower bounds (clipped pixels) pull upwards while p_i < h_i and are silent after.
+// never falls (with plain data: no bounds, no prior, no column held). Observations that are only lower bounds (clipped pixels) pull upwards while p_i < h_i and are silent after.
 //
 // With prior_weight > 0 a column that is observed less than the median one also has a gamma prior whose mode is its start value (the
 // posterior's EM step),

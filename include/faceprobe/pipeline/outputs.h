@@ -1,6 +1,6 @@
 #pragma once
 // The folder that `faceprobe estimate` leaves. One face: all files in the folder itself. Several: face_1 .. face_N from left to right
-// with the same files, and joint/ with the map of all of them; the largest face's map is also at the top.
+// with the same files, and joint/ with the maps of all of them; the largest face's maps and overview are also at the top.
 //
 //   environment.exr .hdr .png   confidence.exr   highlight|diffuse|albedo|shading|normals .exr .png   regions.png
 //   overview.png   report.json (top folder only)
@@ -20,8 +20,11 @@ struct OutputOptions {
   bool overview = true;
 };
 
-// Attributes that every file carries: program, version, solver, separator, hash of the photo.
+// Attributes for files that can carry them (EXR, PNG): version, frame, solver, separator, hash of the photo.
 std::map<std::string, std::string> provenance(const io::Photo& photo, const EstimateOptions& options);
+
+// How the columns of a map are laid out, for people and attributes.
+std::string orientation_name(Orientation orientation);
 
 // Writes everything and returns the files, in order. Throws Error(kOutput). `source` is what the user called the photo.
 std::vector<std::filesystem::path> write_outputs(const std::filesystem::path& folder, const Estimate& estimate,

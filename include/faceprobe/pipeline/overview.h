@@ -7,7 +7,7 @@
 
 namespace faceprobe::pipeline {
 
-// 1600 px wide sRGB picture of one face's estimate. `index` is one into estimate.faces.
+// 1600 px wide sRGB picture of one face's estimate; throws std::out_of_range unless index < estimate.faces.size().
 ByteImage draw_overview(const Estimate& estimate, const io::Photo& photo, std::size_t index, int threads = 0);
 
 }  // namespace faceprobe::pipeline
