@@ -16,6 +16,7 @@ std::vector<float> starts(float length, float side) {
   if (side >= length) return {0.5F * (length - side)};
   const int count = 1 + static_cast<int>(std::ceil((length - side) / (side * (1 - kOverlap)) - 1e-4F));
   std::vector<float> at;
+  at.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) at.push_back((length - side) * static_cast<float>(i) / static_cast<float>(count - 1));
   return at;
 }

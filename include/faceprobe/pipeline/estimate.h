@@ -42,7 +42,7 @@ struct EstimateOptions {
   // Five or 68 landmarks (#points x 2, px) of one face, instead of detection; see face::FaceFinder::from_landmarks.
   std::optional<Eigen::MatrixX2f> landmarks_px;
   int layer_px = 512;          // long side of the crop that layers and geometry are made at; never enlarged
-  int max_patches = 1500;      // observations per face
+  int max_patches = 1000;      // observations per face
   int map_width = 256;         // of the environment maps; the height is half
   int sh_order = 2;            // of the coefficients reported
   int threads = 0;             // 0 = all; handed to every stage
