@@ -23,7 +23,6 @@ struct Rows {
   Eigen::VectorXf weight;
   Eigen::MatrixX3f data;
   Flags bound;  // #rows x 3
-  Eigen::Index highlights = 0;
 };
 
 float quantile(std::vector<float> values, double share) {
@@ -94,8 +93,7 @@ Rows stack(const Observations& o, const Transport& transport, const SolveOptions
   const bool use_shading = shading_flux > 0 && (options.shading_weight > 0 || !use_highlights);
   const Eigen::Index n = o.count();
   Rows rows;
-  rows.highlights = use_highlights ? n : 0;
-  const Eigen::Index total = rows.highlights + (use_shading ? n : 0);
+  const Eigen::Index total = (use_highlights ? n : 0) + (use_shading ? n : 0);
   rows.transport.resize(total, transport.diffuse.cols());
   rows.weight.resize(total);
   rows.data.resize(total, 3);
