@@ -37,4 +37,9 @@ float specular_lobe(const Eigen::Vector3f& normal, const Eigen::Vector3f& view, 
          (static_cast<float>(kPi) * n_v);
 }
 
+float phong_exponent(float roughness) {
+  const float blinn = 2.0F / (roughness * roughness) - 2.0F;
+  return blinn / 4.0F;
+}
+
 }  // namespace faceprobe

@@ -66,7 +66,7 @@ AlbedoModel fit_albedo(const Image& diffuse, const ByteImage& skin_region, const
       const float* rgb = diffuse.pixel(x, y);
       regions[static_cast<std::size_t>(region - 1)].add(rgb);
       const bool own_colour =
-          region - 1 == static_cast<int>(SkinRegion::kLips) || region - 1 == static_cast<int>(SkinRegion::kBrows);
+          region == static_cast<int>(Region::kLips) || region == static_cast<int>(Region::kBrows);
       if (!own_colour) all.add(rgb);
     }
   }
@@ -96,7 +96,7 @@ AlbedoModel fit_albedo(const Image& diffuse, const ByteImage& skin_region, const
 }
 
 Image albedo_picture(const AlbedoModel& model, const ByteImage& skin_region) {
-  const Eigen::Vector3f elsewhere = model.region_albedo[static_cast<std::size_t>(SkinRegion::kCheeks)];
+  const Eigen::Vector3f elsewhere = model.region_albedo[static_cast<std::size_t>(Region::kCheeks) - 1];
   Image albedo(skin_region.width(), skin_region.height(), 3);
   for (int y = 0; y < albedo.height(); ++y) {
     for (int x = 0; x < albedo.width(); ++x) {

@@ -2,7 +2,7 @@
 #include "faceprobe/lighting/estimate.h"
 #include "faceprobe/lighting/recolour.h"
 #include "faceprobe/lighting/richardson_lucy.h"
-#include "faceprobe/lighting/skin.h"
+#include "faceprobe/core/microfacet.h"
 #include "faceprobe/lighting/trace.h"
 
 #include <algorithm>

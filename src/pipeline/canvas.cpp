@@ -124,7 +124,7 @@ ByteImage regions_picture(const face::FaceGeometry& geometry) {
   ByteImage out(geometry.region.width(), geometry.region.height(), 3);
   for (int y = 0; y < out.height(); ++y) {
     for (int x = 0; x < out.width(); ++x) {
-      const Colour colour = face::region_colour(static_cast<face::Region>(geometry.region(x, y)));
+      const Colour colour = region_colour(static_cast<Region>(geometry.region(x, y)));
       std::copy_n(colour.data(), 3, out.pixel(x, y));
     }
   }

@@ -2,7 +2,7 @@
 
 #include "faceprobe/io/photo.h"
 #include "faceprobe/lighting/horizon.h"
-#include "faceprobe/lighting/skin.h"
+#include "faceprobe/core/skin_reflectance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,6 @@ namespace faceprobe::pipeline {
 
 namespace {
 
-using face::Region;
 
 constexpr float kLeastCosine = 0.3F;  // N.V below which a millimetre of mesh error may put a pixel off the face
 
@@ -50,7 +49,7 @@ bool near_rim(const face::FaceGeometry& geometry, int x, int y) {
 
 bool usable(const face::FaceGeometry& geometry, const ByteImage& flags, int x, int y) {
   const auto region = static_cast<Region>(geometry.region(x, y));
-  if (!face::is_probe_skin(region) || (flags(x, y) & io::kTransparent) != 0 || near_rim(geometry, x, y)) return false;
+  if (!is_probe_skin(region) || (flags(x, y) & io::kTransparent) != 0 || near_rim(geometry, x, y)) return false;
   const Eigen::Map<const Eigen::Vector3f> normal(geometry.normal_cam.pixel(x, y));
   const Eigen::Map<const Eigen::Vector3f> view(geometry.view_cam.pixel(x, y));
   return normal.dot(view) > kLeastCosine;
@@ -76,8 +75,8 @@ ByteImage skin_regions(const face::FaceGeometry& geometry) {
   ByteImage skin(geometry.region.width(), geometry.region.height(), 1);
   std::transform(geometry.region.values().begin(), geometry.region.values().end(), skin.values().begin(),
                  [](std::uint8_t r) {
-                   // face::Region counts the ten skin regions from 1 in the same order as lighting::SkinRegion from 0.
-                   return r <= lighting::kSkinRegionCount ? r : std::uint8_t{0};
+                   // The ten skin regions count from 1.
+                   return r <= kSkinRegionCount ? r : std::uint8_t{0};
                  });
   return skin;
 }
@@ -100,8 +99,7 @@ lighting::Observations observe(const face::FaceGeometry& geometry, const Image& 
       Patch& patch =
           grid[static_cast<std::size_t>(y / side) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x / side)];
       const auto region = static_cast<Region>(geometry.region(x, y));
-      const lighting::SkinReflectance skin_here =
-          lighting::skin_reflectance(static_cast<lighting::SkinRegion>(geometry.region(x, y) - 1));
+      const SkinReflectance skin_here = skin_reflectance(static_cast<Region>(geometry.region(x, y)));
       patch.normal += Eigen::Map<const Eigen::Vector3f>(geometry.normal_cam.pixel(x, y));
       patch.view += Eigen::Map<const Eigen::Vector3f>(geometry.view_cam.pixel(x, y));
       patch.highlight += Eigen::Map<const Eigen::Vector3f>(highlight.pixel(x, y));

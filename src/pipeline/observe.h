@@ -11,7 +11,7 @@ namespace faceprobe::pipeline {
 lighting::Observations observe(const face::FaceGeometry& geometry, const Image& highlight, const Image& shading,
                                const ByteImage& flags, int max_patches, int threads);
 
-// 1 + lighting::SkinRegion where the geometry has skin, 0 elsewhere: crop x 1.
+// Region where the geometry has skin, 0 elsewhere: crop x 1.
 ByteImage skin_regions(const face::FaceGeometry& geometry);
 
 }  // namespace faceprobe::pipeline

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Fails when an include goes up or sideways in the house, and on what else keeps it tidy. Reads the tree named as $1.
 #   - A room includes only rooms below it:
-#       core < io < net render < face highlight lighting insert synth < pipeline eval train < batch < apps
+#       core < io < net render < face highlight lighting insert synth < assets pipeline eval train < batch < apps
 #   - A public header includes no internal one, because only public ones are installed.
 #   - Torch is seen only by the sources of net and train.
 #   - No file is longer than 600 lines.
@@ -21,7 +21,7 @@ awk '
   function storey(room) { return (room in floor) ? floor[room] : -1 }
 
   BEGIN {
-    split("core:0 io:1 net:2 render:2 face:3 highlight:3 lighting:3 insert:3 synth:3 pipeline:4 eval:4 train:4 batch:5 apps:6",
+    split("core:0 io:1 net:2 render:2 face:3 highlight:3 lighting:3 insert:3 synth:3 assets:4 pipeline:4 eval:4 train:4 batch:5 apps:6",
           plan, " ")
     for (i in plan) { split(plan[i], pair, ":"); floor[pair[1]] = pair[2] + 0 }
   }

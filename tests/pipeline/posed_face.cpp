@@ -4,7 +4,7 @@
 #include "faceprobe/core/microfacet.h"
 #include "faceprobe/core/sphere_grid.h"
 #include "faceprobe/io/data_files.h"
-#include "faceprobe/lighting/skin.h"
+#include "faceprobe/core/skin_reflectance.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -41,13 +41,12 @@ bool meets(const Eigen::Vector3f& from, const Eigen::Vector3f& along, const Eige
 }
 
 Microfacet skin_at(const face::FaceGeometry& geometry, int x, int y) {
-  const lighting::SkinReflectance skin =
-      lighting::skin_reflectance(static_cast<lighting::SkinRegion>(geometry.region(x, y) - 1));
+  const SkinReflectance skin = skin_reflectance(static_cast<Region>(geometry.region(x, y)));
   return {.roughness = skin.roughness, .specular_albedo = skin.specular_albedo};
 }
 
 bool is_skin(const face::FaceGeometry& geometry, int x, int y) {
-  return geometry.region(x, y) >= 1 && geometry.region(x, y) <= lighting::kSkinRegionCount;
+  return geometry.region(x, y) >= 1 && geometry.region(x, y) <= kSkinRegionCount;
 }
 
 }  // namespace
@@ -109,7 +108,7 @@ Image photograph(const PosedFace& posed, const LitFace& lit) {
   Image photo(lit.shading.width(), lit.shading.height(), 3);
   for (int y = 0; y < photo.height(); ++y) {
     for (int x = 0; x < photo.width(); ++x) {
-      const bool lips = posed.geometry.region(x, y) == static_cast<int>(face::Region::kLips);
+      const bool lips = posed.geometry.region(x, y) == static_cast<int>(Region::kLips);
       for (int c = 0; c < 3; ++c) {
         photo(x, y, c) = (lips ? kLips : kSkin)[c] * lit.shading(x, y, c) + lit.highlight(x, y, c);
       }

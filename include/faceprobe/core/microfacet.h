@@ -29,4 +29,8 @@ float beckmann(float cosine, float roughness);
 float specular_lobe(const Eigen::Vector3f& normal, const Eigen::Vector3f& view, const Eigen::Vector3f& light,
                     const Microfacet& surface);
 
+// Phong exponent of the reflection vector's lobe (R . L)^alpha that has the width of a Beckmann lobe of roughness m:
+// n = 2 / m^2 - 2 for the half vector, a quarter of it for the mirror direction.
+float phong_exponent(float roughness);
+
 }  // namespace faceprobe

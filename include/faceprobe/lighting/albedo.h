@@ -6,7 +6,7 @@
 // roughly white-balanced, skins lie on a short locus - and the posterior mean splits the product (ESTIMATES: see albedo.cpp).
 
 #include "faceprobe/core/image.h"
-#include "faceprobe/lighting/skin.h"
+#include "faceprobe/core/region.h"
 
 #include <Eigen/Core>
 #include <array>
@@ -20,7 +20,7 @@ struct AlbedoModel {
 
 inline constexpr float kSkinLuminance = 0.35F;  // assumed mean diffuse albedo; a photo does not tell its exposure
 
-// `diffuse`: H x W x 3 linear. `skin_region`: H x W x 1, 1 + SkinRegion where skin, 0 elsewhere. `clipped`: H x W x 1, non-zero
+// `diffuse`: H x W x 3 linear. `skin_region`: H x W x 1, Region where skin, 0 elsewhere. `clipped`: H x W x 1, non-zero
 // pixels are left out. A face without any usable skin pixel gets the prior's mean. `grey`: the photo has no colour, so skin and light
 // are taken as grey.
 AlbedoModel fit_albedo(const Image& diffuse, const ByteImage& skin_region, const ByteImage& clipped, bool grey = false);

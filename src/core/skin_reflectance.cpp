@@ -1,10 +1,10 @@
-#include "faceprobe/lighting/skin.h"
+#include "faceprobe/core/skin_reflectance.h"
 
 #include <array>
 
-namespace faceprobe::lighting {
+namespace faceprobe {
 
-SkinReflectance skin_reflectance(SkinRegion region) {
+SkinReflectance skin_reflectance(Region region) {
   static constexpr std::array<SkinReflectance, kSkinRegionCount> kTable = {{
       {0.28F, 0.20F},  // forehead
       {0.25F, 0.24F},  // nose
@@ -17,12 +17,8 @@ SkinReflectance skin_reflectance(SkinRegion region) {
       {0.36F, 0.12F},  // brows
       {0.33F, 0.15F},  // other
   }};
-  return kTable[static_cast<std::size_t>(region)];
+  const int row = static_cast<int>(region) - 1;
+  return row >= 0 && row < kSkinRegionCount ? kTable[static_cast<std::size_t>(row)] : kTable.back();
 }
 
-float phong_exponent(float roughness) {
-  const float blinn = 2.0F / (roughness * roughness) - 2.0F;
-  return blinn / 4.0F;
-}
-
-}  // namespace faceprobe::lighting
+}  // namespace faceprobe

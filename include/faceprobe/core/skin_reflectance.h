@@ -6,23 +6,16 @@
 // forehead smoother and shinier, beard area rougher) around the common default m = .30, rho_s = .18. Only the ratios between
 // regions matter to a light estimate, because one gain for all highlights is fitted.
 
-#include <array>
-#include <string_view>
+#include "faceprobe/core/region.h"
 
-namespace faceprobe::lighting {
-
-enum class SkinRegion { kForehead, kNose, kCheeks, kUpperLip, kLips, kChin, kJaw, kEyelids, kBrows, kOther };
-inline constexpr int kSkinRegionCount = 10;
+namespace faceprobe {
 
 struct SkinReflectance {
   float roughness;        // m, rms slope of the Beckmann distribution
   float specular_albedo;  // rho_s of the Torrance-Sparrow model, see core/microfacet.h
 };
 
-SkinReflectance skin_reflectance(SkinRegion region);
+// One of the ten skin regions; any other region gets the values of Region::kOther.
+SkinReflectance skin_reflectance(Region region);
 
-// Phong exponent of the reflection vector's lobe (R . L)^alpha that has the width of a Beckmann lobe of roughness m:
-// n = 2 / m^2 - 2 for the half vector, a quarter of it for the mirror direction.
-float phong_exponent(float roughness);
-
-}  // namespace faceprobe::lighting
+}  // namespace faceprobe
