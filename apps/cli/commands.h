@@ -12,6 +12,7 @@ using Action = std::function<int()>;
 void add_estimate(CLI::App& program, Action& action);
 void add_separate(CLI::App& program, Action& action);
 void add_info(CLI::App& program, Action& action);
+void add_synth(CLI::App& program, Action& action);
 
 // Runs the action; every Error becomes its sentence on stderr and its exit code.
 int run_guarded(const Action& action);

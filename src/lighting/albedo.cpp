@@ -65,8 +65,7 @@ AlbedoModel fit_albedo(const Image& diffuse, const ByteImage& skin_region, const
       if (region < 1 || region > kSkinRegionCount || clipped(x, y) != 0) continue;
       const float* rgb = diffuse.pixel(x, y);
       regions[static_cast<std::size_t>(region - 1)].add(rgb);
-      const bool own_colour =
-          region == static_cast<int>(Region::kLips) || region == static_cast<int>(Region::kBrows);
+      const bool own_colour = region == static_cast<int>(Region::kLips) || region == static_cast<int>(Region::kBrows);
       if (!own_colour) all.add(rgb);
     }
   }

@@ -1,8 +1,8 @@
+#include "faceprobe/core/microfacet.h"
 #include "faceprobe/core/parallel.h"
 #include "faceprobe/lighting/estimate.h"
 #include "faceprobe/lighting/recolour.h"
 #include "faceprobe/lighting/richardson_lucy.h"
-#include "faceprobe/core/microfacet.h"
 #include "faceprobe/lighting/trace.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 #include "pipeline/observe.h"
 
+#include "faceprobe/core/skin_reflectance.h"
 #include "faceprobe/io/photo.h"
 #include "faceprobe/lighting/horizon.h"
-#include "faceprobe/core/skin_reflectance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,6 @@
 namespace faceprobe::pipeline {
 
 namespace {
-
 
 constexpr float kLeastCosine = 0.3F;  // N.V below which a millimetre of mesh error may put a pixel off the face
 

@@ -2,9 +2,9 @@
 
 #include "faceprobe/core/angles.h"
 #include "faceprobe/core/microfacet.h"
+#include "faceprobe/core/skin_reflectance.h"
 #include "faceprobe/core/sphere_grid.h"
 #include "faceprobe/io/data_files.h"
-#include "faceprobe/core/skin_reflectance.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -21,15 +21,15 @@ class Random {
  public:
   explicit Random(std::initializer_list<std::uint64_t> key);
 
-  std::uint32_t bits();                          // 32 of them
-  double uniform();                              // [0, 1)
-  double between(double low, double high);       // [low, high)
-  double log_between(double low, double high);   // uniform in the logarithm; 0 < low <= high
-  double normal();                               // mean 0, variance 1 (Box-Muller)
+  std::uint32_t bits();                         // 32 of them
+  double uniform();                             // [0, 1)
+  double between(double low, double high);      // [low, high)
+  double log_between(double low, double high);  // uniform in the logarithm; 0 < low <= high
+  double normal();                              // mean 0, variance 1 (Box-Muller)
   double normal(double mean, double deviation);
-  int below(int count);                          // 0 .. count - 1; count >= 1
+  int below(int count);  // 0 .. count - 1; count >= 1
   bool chance(double probability);
-  Eigen::Vector3f direction();                   // uniform on the sphere
+  Eigen::Vector3f direction();  // uniform on the sphere
 
   // A generator of its own for a part of the work; drawing from it leaves this one as it is.
   Random split(std::uint64_t purpose) const;

@@ -1,0 +1,171 @@
+#include "commands.h"
+#include "faceprobe/assets/heads.h"
+#include "faceprobe/assets/maps.h"
+#include "faceprobe/assets/skins.h"
+#include "faceprobe/core/error.h"
+#include "faceprobe/io/picture_file.h"
+#include "faceprobe/synth/contact_sheet.h"
+#include "faceprobe/synth/generate.h"
+#include "faceprobe/synth/procedural_head.h"
+#include "faceprobe/synth/procedural_maps.h"
+
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+namespace faceprobe::cli {
+
+namespace {
+
+struct Options {
+  std::vector<std::string> heads;
+  std::string skins;
+  std::string maps;
+  std::string output = "faces";
+  std::string preview;
+  std::string mode = "default";
+  std::string split = "all";
+  int preview_count = 64;
+  int threads = 0;
+  bool json = false;
+  synth::Recipe recipe;
+};
+
+synth::Assets load_assets(const Options& options) {
+  synth::Assets assets;
+  for (const std::string& path : options.heads) {
+    for (synth::HeadModel& model : assets::load_heads(path)) assets.heads.push_back(std::move(model));
+  }
+  if (assets.heads.empty()) assets.heads.push_back(synth::procedural_head());
+  if (!options.skins.empty()) {
+    for (auto& [name, picture] : assets::load_skins(options.skins)) {
+      assets.skins.push_back(synth::prepare_texture(name, std::move(picture)));
+    }
+  }
+  if (options.maps.empty()) {
+    for (const auto& [name, map] : synth::procedural_maps()) assets.maps.push_back(synth::prepare_map(name, map, {}));
+  } else {
+    for (const auto& [name, map] : assets::load_maps(options.maps))
+      assets.maps.push_back(synth::prepare_map(name, map, {}));
+  }
+  return assets;
+}
+
+// A line that writes over itself on a terminal, one in ten seconds elsewhere.
+class Progress {
+ public:
+  void operator()(const synth::RunState& state) {
+    const int made = state.samples_done - state.samples_found;
+    if (made <= 0) {
+      if (state.samples_found > 0)
+        spdlog::info("{} of {} samples are there already", state.samples_found, state.samples_total);
+      return;
+    }
+    const double rate = made / state.seconds;
+    const double left = (state.samples_total - state.samples_done) / rate;
+    if (is_terminal_) {
+      fmt::print(stderr, "\r{} of {} samples, {:.0f} a second, {:.0f} s left   ", state.samples_done,
+                 state.samples_total, rate, left);
+      if (state.samples_done == state.samples_total) fmt::print(stderr, "\n");
+    } else if (state.seconds - last_ > 10 || state.samples_done == state.samples_total) {
+      last_ = state.seconds;
+      spdlog::info("{} of {} samples, {:.0f} a second, {:.0f} s left", state.samples_done, state.samples_total, rate,
+                   left);
+    }
+  }
+
+ private:
+  bool is_terminal_ = isatty(STDERR_FILENO) != 0;
+  double last_ = 0;
+};
+
+// Samples spread evenly over the data set, so that a sheet shows as many people as it can.
+void write_preview(const Options& options) {
+  const synth::ShardReader reader(options.output);
+  const int count = std::min(options.preview_count, reader.sample_count());
+  std::vector<synth::Sample> samples;
+  for (int i = 0; i < count; ++i) {
+    // Within a person another light each time; a stride that met every person at the same light would show one light only.
+    const int at = static_cast<int>((static_cast<long long>(i) * reader.sample_count()) / count);
+    samples.push_back(reader.copy_sample(at));
+  }
+  const int columns = std::max(1, static_cast<int>(std::ceil(std::sqrt(static_cast<double>(count)))));
+  io::write_picture(options.preview, synth::contact_sheet(samples, columns));
+  spdlog::info("wrote {} samples to {}", count, options.preview);
+}
+
+int run(Options options) {
+  options.recipe.mode = options.mode == "paper" ? synth::Mode::kPaper : synth::Mode::kDefault;
+  options.recipe.split = options.split == "train" ? synth::Split::kTrain
+                         : options.split == "dev" ? synth::Split::kDev
+                                                  : synth::Split::kAll;
+  if (const std::string problem = options.recipe.validate(); !problem.empty()) throw Error(ExitCode::kUsage, problem);
+  const synth::Assets assets = load_assets(options);
+  Progress progress;
+  const synth::DatasetReport report =
+      synth::generate_dataset(assets, options.recipe, options.output, {.threads = options.threads},
+                              [&](const synth::RunState& state) { progress(state); });
+  const int made = report.state.samples_done - report.state.samples_found;
+  if (options.json) {
+    const nlohmann::ordered_json json = {{"samples", report.state.samples_done},
+                                         {"samples_made", made},
+                                         {"seconds", report.state.seconds},
+                                         {"thread_seconds",
+                                          {{"scene", report.times.scene},
+                                           {"transport", report.times.transport},
+                                           {"shade", report.times.shade},
+                                           {"compose", report.times.compose},
+                                           {"write", report.times.write}}}};
+    fmt::print("{}\n", json.dump());
+  }
+  spdlog::info("{} samples in {}, {} of them made now in {:.1f} s", report.state.samples_done, options.output, made,
+               report.state.seconds);
+  if (!options.preview.empty()) write_preview(options);
+  return 0;
+}
+
+}  // namespace
+
+void add_synth(CLI::App& program, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      program.add_subcommand("synth", "synthetic faces with every layer known, for training and measuring");
+  synth::Recipe& recipe = options->recipe;
+  command->add_option("--heads", options->heads,
+                      "head model: ICT-FaceKit folder, Basel .mat or .h5, .obj; without it a small built-in head");
+  command->add_option("--skins", options->skins, "folder of skin textures in the head's UVs");
+  command->add_option("--maps", options->maps,
+                      "folder of HDR environment maps, .hdr or .exr; without it a few built-in ones");
+  command->add_option("--count", recipe.count, "samples to make")->capture_default_str();
+  command->add_option("--size", recipe.size_px, "width and height of a sample, px")->capture_default_str();
+  command->add_option("--seed", recipe.seed, "the same seed gives the same bytes")->capture_default_str();
+  command
+      ->add_option("--mode", options->mode,
+                   "default = photos; paper = bare heads as in the ECCV 2018 paper's Section 5.1")
+      ->check(CLI::IsMember({"default", "paper"}))
+      ->capture_default_str();
+  command->add_option("--split", options->split, "train and dev share no identity and no skin texture")
+      ->check(CLI::IsMember({"all", "train", "dev"}))
+      ->capture_default_str();
+  command->add_option("--views", recipe.views_per_person, "poses of each person")->capture_default_str();
+  command->add_option("--lights", recipe.samples_per_view, "maps that light each pose")->capture_default_str();
+  command->add_option("--skins-per-person", recipe.skins_per_person, "skins that take turns")->capture_default_str();
+  command->add_option("-o,--output", options->output, "folder for the shards, index.json and CARD.md")
+      ->capture_default_str();
+  command->add_option("--preview", options->preview, "also write a contact sheet of the data set to this picture");
+  command->add_option("--preview-count", options->preview_count, "samples on the sheet")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1024));
+  command->add_option("--threads", options->threads, "people made at the same time; 0 = all processors")
+      ->capture_default_str();
+  command->add_flag("--json", options->json, "one JSON object on stdout at the end");
+  command->footer(
+      "A run that was cut off goes on where it stopped when the same command is given again.\n\nExample:\n"
+      "  faceprobe synth --heads ict_facekit --skins skins --maps hdri/train --count 20000 --seed 1 --split train \\\n"
+      "    -o faces --preview faces.png");
+  command->callback([options, &action] { action = [options] { return run(*options); }; });
+}
+
+}  // namespace faceprobe::cli

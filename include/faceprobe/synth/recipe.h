@@ -1,0 +1,44 @@
+#pragma once
+// What a data set of synthetic faces is made of, apart from the assets: numbers and shares, drawn from one seed.
+//
+// Work is split by person: one head, expression and set of clothes, seen in a few views (pose and camera), each view lit by many maps,
+// in a few skins. One shard of the data set is one person, so that shards depend on nothing but the seed and their number.
+
+#include <cstdint>
+#include <string>
+
+namespace faceprobe::synth {
+
+enum class Mode : std::uint8_t {
+  kDefault,  // photos: hair, glasses, things in front, cameras, real reflectance
+  kPaper,  // the ECCV 2018 paper's Section 5.1: bare heads before black, one specular albedo in [0, 1], a perfect camera
+};
+
+// Which of the skin textures are used: a development set shows none that training has seen.
+enum class Split : std::uint8_t { kAll, kTrain, kDev };
+
+struct Recipe {
+  int count = 1000;   // samples
+  int size_px = 128;  // 32 .. 1024
+  std::uint64_t seed = 1;
+  Mode mode = Mode::kDefault;
+  Split split = Split::kAll;  // kTrain leaves out every sixth texture, kDev uses only those; identities differ too
+  int views_per_person = 4;
+  int samples_per_view = 16;    // maps, with their turns
+  int skins_per_person = 4;     // textures and tones that take turns over a view's samples
+  int samples_per_side = 3;     // primary rays per pixel and side
+  int nside = 16;               // cells of light
+  int bounce_rays = 48;         // per vertex; 0 = direct light only
+  int environment_height = 32;  // of the map that is stored with each sample
+
+  // Empty when usable, else a sentence that says which value is wrong.
+  std::string validate() const;
+
+  int samples_per_person() const { return views_per_person * samples_per_view; }
+  int person_count() const { return (count + samples_per_person() - 1) / samples_per_person(); }
+};
+
+// One JSON object with every field.
+std::string to_json(const Recipe& recipe);
+
+}  // namespace faceprobe::synth

@@ -1,0 +1,71 @@
+#pragma once
+// Samples on disk: a folder of shards, each one .safetensors file that can be mapped into memory, an index, the recipe and a card.
+//
+//   ShardWriter writer("out", spec);
+//   if (!writer.has(3)) writer.write(3, views, samples);      // appears whole or not at all
+//   writer.finish(card);
+//
+//   const ShardReader reader("out");
+//   const Sample sample = reader.copy_sample(1234);
+
+#include "faceprobe/io/tensor_file.h"
+#include "faceprobe/synth/sample.h"
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace faceprobe::synth {
+
+struct ShardSpec {
+  int size_px = 128;
+  int environment_height = 32;
+  std::string recipe;  // everything the data depends on, one JSON object; a folder made by another recipe is refused
+};
+
+// A view and the samples made of it, in order.
+struct ViewSamples {
+  ViewLayers view;
+  std::vector<Sample> samples;
+};
+
+class ShardWriter {
+ public:
+  // Creates the folder. Throws Error(kOutput) when it cannot be written or holds shards of another recipe (the sentence says how the
+  // recipes differ).
+  ShardWriter(std::filesystem::path folder, ShardSpec spec);
+  bool has(int shard) const;  // complete on disk
+  // All samples and views in the order given. Thread-safe for different shards.
+  void write(int shard, std::span<const ViewSamples> views) const;
+  // Writes index.json (shards with their samples and views, and the recipe) and CARD.md.
+  void finish(int shard_count, const std::string& card_markdown) const;
+
+ private:
+  std::filesystem::path folder_;
+  ShardSpec spec_;
+};
+
+class ShardReader {
+ public:
+  // Throws Error(kInput): no index.json, or shards that are not what it says.
+  explicit ShardReader(const std::filesystem::path& folder);
+
+  int sample_count() const { return static_cast<int>(place_.size()); }
+  const std::string& recipe() const { return recipe_; }
+  // The mapped file that holds a sample, and the sample's number in it; for readers that want spans instead of copies.
+  std::pair<const io::MappedTensors*, int> place(int sample) const;
+  Sample copy_sample(int sample) const;
+  ViewLayers copy_view(int sample) const;  // of the view that the sample shows
+
+ private:
+  std::vector<io::MappedTensors> shards_;
+  std::vector<std::pair<int, int>> place_;  // of each sample: shard, number in it
+  std::string recipe_;
+};
+
+// "shard-00012.safetensors"
+std::string shard_name(int shard);
+
+}  // namespace faceprobe::synth

@@ -1,0 +1,173 @@
+#include "faceprobe/core/parallel.h"
+#include "faceprobe/synth/compose.h"
+#include "faceprobe/synth/generate.h"
+#include "synth/generate/light_sample_draw.h"
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+
+namespace faceprobe::synth {
+namespace {
+
+class Stopwatch {
+ public:
+  // Adds the time since the last call to `total`.
+  void lap(double& total) {
+    const auto now = std::chrono::steady_clock::now();
+    total += std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+Eigen::Matrix3f map_turn(float yaw) { return Eigen::AngleAxisf(yaw, Eigen::Vector3f::UnitY()).toRotationMatrix(); }
+
+struct FaceMean {
+  Eigen::Vector3f radiance;  // of the skin
+  Eigen::Vector3f light;     // mean shading: the light's colour
+};
+
+FaceMean face_mean(const Fragments& fragments, const ViewSurface& surface, const Eigen::MatrixX3f& shading,
+                   const Eigen::MatrixX3f& specular) {
+  Eigen::Vector3d radiance = Eigen::Vector3d::Zero();
+  Eigen::Vector3d light = Eigen::Vector3d::Zero();
+  double weight = 0;
+  for (int i = 0; i < fragments.count(); ++i) {
+    if (fragments.material[static_cast<std::size_t>(i)] != Material::kSkin) continue;
+    const double share = static_cast<double>(fragments.coverage[static_cast<std::size_t>(i)]);
+    const Eigen::RowVector3f sent =
+        surface.albedo.row(i).cwiseProduct(shading.row(i)) + surface.specular_albedo(i) * specular.row(i);
+    radiance += share * sent.cast<double>().transpose();
+    light += share * shading.row(i).cast<double>().transpose();
+    weight += share;
+  }
+  if (weight <= 0) return {Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero()};
+  return {(radiance / weight).cast<float>(), (light / weight).cast<float>()};
+}
+
+std::string settings_json(const Assets& assets, const SampleDraw& draw, const SkinSettings& skin,
+                          const Eigen::Vector3f& gain) {
+  const auto triple = [](const Eigen::Vector3f& v) { return nlohmann::json{v.x(), v.y(), v.z()}; };
+  const nlohmann::ordered_json json = {
+      {"map", assets.maps[static_cast<std::size_t>(draw.map)].name},
+      {"skin", draw.skin},
+      {"texture", skin.texture >= 0 ? assets.skins[static_cast<std::size_t>(skin.texture)].name : ""},
+      {"tone", triple(skin.target_tone)},
+      {"specular_albedo", skin.specular_albedo},
+      {"roughness", skin.roughness},
+      {"gain", triple(gain)},
+      {"jpeg_quality", draw.sensor.jpeg_quality},
+      {"grey", draw.sensor.grey},
+  };
+  return json.dump();
+}
+
+}  // namespace
+
+std::vector<ViewSamples> generate_person(const Assets& assets, const Recipe& recipe, int person_number, int threads,
+                                         GenerateTimes* times) {
+  GenerateTimes unused;
+  GenerateTimes& spent = times != nullptr ? *times : unused;
+  Stopwatch watch;
+  const Person person = draw_person(assets, recipe, person_number);
+  const Scene scene(person.figures);
+  std::vector<View> views;
+  std::vector<Fragments> seen;
+  for (int v = 0; v < recipe.views_per_person; ++v) {
+    views.push_back(draw_view(person, recipe, v));
+    seen.push_back(
+        find_fragments(scene, views.back().camera, {.samples_per_side = recipe.samples_per_side, .threads = threads}));
+  }
+  watch.lap(spent.scene);
+
+  const TransportOptions transport_options{.nside = recipe.nside, .bounce_rays = recipe.bounce_rays, .threads = threads};
+  std::vector<const Fragments*> all_seen;
+  for (const Fragments& fragments : seen) all_seen.push_back(&fragments);
+  const SceneTransport transport = build_scene_transport(scene, vertices_seen(all_seen), transport_options);
+  const SphereGrid grid(recipe.nside);
+  watch.lap(spent.transport);
+
+  std::vector<ViewSamples> result;
+  for (int v = 0; v < recipe.views_per_person; ++v) {
+    const View& view = views[static_cast<std::size_t>(v)];
+    const Eigen::Isometry3f& pose = view.camera.camera_from_scene;
+    Fragments fragments = std::move(seen[static_cast<std::size_t>(v)]);
+    ViewSamples out;
+    out.view = view_layers(person, view, fragments);
+    FragmentSurface lobes = plain_lobes(fragments);
+    add_person_lobes(person, fragments, view.camera, lobes);
+    const ViewTransport view_transport = build_view_transport(scene, transport, std::move(fragments), std::move(lobes),
+                                                              pose.inverse().translation(), transport_options);
+    watch.lap(spent.transport);
+
+    const auto count = static_cast<std::size_t>(recipe.samples_per_view);
+    const Random view_random({recipe.seed, static_cast<std::uint64_t>(recipe.split),
+                              static_cast<std::uint64_t>(person_number), 0x5A3D, static_cast<std::uint64_t>(v)});
+    std::vector<SampleDraw> draws(count);
+    std::vector<LightSample> lights(count);
+    std::vector<Eigen::Matrix3f> camera_from_map(count);
+    parallel_for(recipe.samples_per_view, threads, [&](int first, int last) {
+      for (int s = first; s < last; ++s) {
+        const auto k = static_cast<std::size_t>(s);
+        Random random = view_random.split(static_cast<std::uint64_t>(s));
+        draws[k] = draw_sample(assets, recipe, random, s);
+        camera_from_map[k] = view.camera_from_level * map_turn(draws[k].map_yaw);
+        const MapLight& map = assets.maps[static_cast<std::size_t>(draws[k].map)];
+        lights[k] = light_from_map(map, pose.linear().transpose() * camera_from_map[k], Eigen::Vector3f::Ones(), grid);
+      }
+    });
+    const std::vector<FragmentLight> lit = shade(scene, transport, view_transport, lights, {.threads = threads});
+    watch.lap(spent.shade);
+
+    std::vector<ViewSurface> surfaces;
+    for (const SkinSettings& skin : person.skins) {
+      surfaces.push_back(empty_surface(transport, view_transport.fragments));
+      add_person_surface(assets, person, skin, scene, transport, view_transport.fragments, surfaces.back());
+    }
+    out.samples.resize(count);
+    parallel_for(recipe.samples_per_view, threads, [&](int first, int last) {
+      for (int s = first; s < last; ++s) {
+        const auto k = static_cast<std::size_t>(s);
+        const SampleDraw& draw = draws[k];
+        const SkinSettings& skin = person.skins[static_cast<std::size_t>(draw.skin)];
+        const ViewSurface& surface = surfaces[static_cast<std::size_t>(draw.skin)];
+        const MapLight& map = assets.maps[static_cast<std::size_t>(draw.map)];
+        Eigen::MatrixX3f shading = lit[k].shading;
+        if (recipe.bounce_rays > 0)
+          shading += bounced_shading(transport, view_transport, lit[k].vertex_shading, surface.row_albedo);
+        if (recipe.mode == Mode::kDefault) scatter_below_surface(view_transport.fragments, view.camera, shading);
+        const FaceMean mean = face_mean(view_transport.fragments, surface, shading, lit[k].specular);
+        const Eigen::Vector3f gain = exposure_gain(draw, mean.radiance, mean.light, skin.target_tone);
+        const Image background = recipe.mode == Mode::kPaper ? Image(recipe.size_px, recipe.size_px, 3)
+                                                             : draw_background(map, view.camera, camera_from_map[k],
+                                                                               gain, draw.background_blur_px);
+        LinearLayers layers =
+            gather_layers(view_transport.fragments, surface, shading, lit[k].specular, background, gain);
+        Image radiance = layers.diffuse;
+        for (std::size_t i = 0; i < radiance.values().size(); ++i) radiance.data()[i] += layers.highlight.data()[i];
+        Random camera_random = view_random.split(static_cast<std::uint64_t>(s)).split(1);
+        SensorPicture picture = take_picture(radiance, draw.sensor, camera_random);
+
+        Sample& sample = out.samples[k];
+        sample.photo = std::move(picture.photo);
+        sample.clip = std::move(picture.clip);
+        sample.highlight = std::move(layers.highlight);
+        sample.diffuse = std::move(layers.diffuse);
+        sample.albedo = std::move(layers.albedo);
+        sample.shading = std::move(layers.shading);
+        sample.environment =
+            map_in_frame(map, camera_from_map[k], gain, 2 * recipe.environment_height, recipe.environment_height);
+        sample.map = draw.map;
+        sample.map_yaw = draw.map_yaw;
+        sample.settings_json = settings_json(assets, draw, skin, gain);
+      }
+    });
+    watch.lap(spent.compose);
+    result.push_back(std::move(out));
+  }
+  return result;
+}
+
+}  // namespace faceprobe::synth

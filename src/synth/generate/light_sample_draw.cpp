@@ -1,0 +1,52 @@
+#include "synth/generate/light_sample_draw.h"
+
+#include "faceprobe/core/angles.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace faceprobe::synth {
+namespace {
+
+const Eigen::Vector3f kLuminance(0.2126F, 0.7152F, 0.0722F);
+
+// Cameras expose a middle skin to about a quarter of white, and let a dark one come out darker, by half as many stops.
+constexpr float kUsualFace = 0.26F;
+constexpr float kUsualTone = 0.30F;
+constexpr float kFaceMin = 0.03F;
+constexpr float kFaceMax = 0.75F;
+
+}  // namespace
+
+SampleDraw draw_sample(const Assets& assets, const Recipe& recipe, Random& random, int index) {
+  SampleDraw draw;
+  draw.map = random.below(static_cast<int>(assets.maps.size()));
+  draw.map_yaw = static_cast<float>(random.between(-kPi, kPi));
+  draw.skin = index % recipe.skins_per_person;
+  if (recipe.mode == Mode::kPaper) {
+    draw.sensor = {.blur_px = 0, .vignetting = 0, .read_noise = 0, .shot_noise = 0, .sharpening = 0, .jpeg_quality = 0};
+    return draw;
+  }
+  draw.white_balance = static_cast<float>(random.between(0.35, 1.0));
+  for (int c = 0; c < 3; ++c) draw.cast(c) = static_cast<float>(std::exp(random.normal(0, 0.05)));
+  draw.cast /= draw.cast.dot(kLuminance);
+  draw.exposure = static_cast<float>(std::exp(random.normal(0, 0.33)));
+  draw.background_blur_px = static_cast<float>(random.between(0.002, 0.02) * recipe.size_px);
+  draw.sensor = draw_sensor({}, random);
+  return draw;
+}
+
+Eigen::Vector3f exposure_gain(const SampleDraw& draw, const Eigen::Vector3f& face, const Eigen::Vector3f& light,
+                              const Eigen::Vector3f& tone) {
+  Eigen::Vector3f gain = draw.cast;
+  const float light_luminance = light.dot(kLuminance);
+  if (light_luminance > 0) {
+    for (int c = 0; c < 3; ++c) gain(c) *= std::pow(std::max(0.02F, light(c) / light_luminance), -draw.white_balance);
+  }
+  const float seen = gain.cwiseProduct(face).dot(kLuminance);
+  if (!(seen > 0)) return Eigen::Vector3f::Ones();
+  const float wanted = kUsualFace * std::sqrt(tone.dot(kLuminance) / kUsualTone) * draw.exposure;
+  return gain * (std::clamp(wanted, kFaceMin, kFaceMax) / seen);
+}
+
+}  // namespace faceprobe::synth

@@ -1,0 +1,68 @@
+#include "faceprobe/synth/recipe.h"
+
+#include <nlohmann/json.hpp>
+
+namespace faceprobe::synth {
+namespace {
+
+std::string out_of_range(const char* name, long long value, long long low, long long high) {
+  return std::string(name) + " is " + std::to_string(value) + "; allowed is " + std::to_string(low) + " to " +
+         std::to_string(high) + ".";
+}
+
+const char* name_of(Mode mode) { return mode == Mode::kPaper ? "paper" : "default"; }
+
+const char* name_of(Split split) {
+  switch (split) {
+    case Split::kTrain: return "train";
+    case Split::kDev: return "dev";
+    case Split::kAll: break;
+  }
+  return "all";
+}
+
+}  // namespace
+
+std::string Recipe::validate() const {
+  struct Limit {
+    const char* name;
+    long long value, low, high;
+  };
+  const Limit limits[] = {
+      {"count", count, 1, 100'000'000},
+      {"size", size_px, 32, 1024},
+      {"views per person", views_per_person, 1, 1024},
+      {"samples per view", samples_per_view, 1, 4096},
+      {"skins per person", skins_per_person, 1, 64},
+      {"samples per side", samples_per_side, 1, 8},
+      {"nside", nside, 4, 32},
+      {"bounce rays", bounce_rays, 0, 4096},
+      {"environment height", environment_height, 4, 512},
+  };
+  for (const Limit& limit : limits) {
+    if (limit.value < limit.low || limit.value > limit.high) {
+      return out_of_range(limit.name, limit.value, limit.low, limit.high);
+    }
+  }
+  return {};
+}
+
+std::string to_json(const Recipe& recipe) {
+  const nlohmann::ordered_json json = {
+      {"count", recipe.count},
+      {"size_px", recipe.size_px},
+      {"seed", recipe.seed},
+      {"mode", name_of(recipe.mode)},
+      {"split", name_of(recipe.split)},
+      {"views_per_person", recipe.views_per_person},
+      {"samples_per_view", recipe.samples_per_view},
+      {"skins_per_person", recipe.skins_per_person},
+      {"samples_per_side", recipe.samples_per_side},
+      {"nside", recipe.nside},
+      {"bounce_rays", recipe.bounce_rays},
+      {"environment_height", recipe.environment_height},
+  };
+  return json.dump();
+}
+
+}  // namespace faceprobe::synth

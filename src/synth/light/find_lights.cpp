@@ -1,0 +1,209 @@
+#include "synth/light/find_lights.h"
+
+#include "faceprobe/core/angles.h"
+#include "faceprobe/core/color.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+namespace faceprobe::synth {
+namespace {
+
+// A light that gives less than this share of a map's whole is not worth a shadow ray per point.
+constexpr double kLeastShare = 0.01;
+// Discs that are tried about a light, the smallest first, so that little of its surround is flattened: the radius in parts of the
+// largest, and how bright it may be around (mean radiance over the mean within, both above the surround; a lamp that goes on
+// beyond the disc has about 1). A smaller disc has to hold all of the glare, the largest is allowed to leave some.
+struct Disc {
+  double radius;
+  double most_around;
+};
+constexpr std::array<Disc, 4> kDiscs = {{{0.4, 0.02}, {0.6, 0.02}, {0.8, 0.03}, {1.0, 0.15}}};
+// The ring that is looked at as the surround reaches this much further than the disc, and at least two texels.
+constexpr double kRing = 1.6;
+
+struct Texel {
+  int x, y;
+  double solid_angle;
+  Eigen::Vector3d direction;
+};
+
+class Finder {
+ public:
+  Finder(const EnvMap& map, double max_radius)
+      : rest_(map), max_radius_(max_radius), texel_(kPi / map.height()), luminance_(map.radiance().pixel_count()),
+        done_(map.radiance().pixel_count(), 0) {
+    for (int y = 0; y < map.height(); ++y) {
+      double row = 0;
+      for (int x = 0; x < map.width(); ++x) {
+        luminance_[index(x, y)] = luminance(map.radiance().pixel(x, y));
+        row += static_cast<double>(luminance_[index(x, y)]);
+      }
+      total_ += row * texel_solid_angle(y, map.width(), map.height());
+    }
+  }
+
+  FoundLights find(int max_count) {
+    FoundLights found;
+    const double largest_disc = 2.0 * kPi * (1.0 - std::cos(max_radius_));
+    while (static_cast<int>(found.lights.size()) < max_count) {
+      const std::size_t peak = brightest_left();
+      if (peak >= luminance_.size()) break;
+      // Even a full disc of this radiance would be too little: what follows is darker still.
+      if (static_cast<double>(luminance_[peak]) * largest_disc < kLeastShare * total_) break;
+      const auto width = static_cast<std::size_t>(rest_.width());
+      const std::optional<DistantLight> light = take(static_cast<int>(peak % width), static_cast<int>(peak / width));
+      if (light) add(*light, found.lights);
+    }
+    found.rest = std::move(rest_);
+    return found;
+  }
+
+ private:
+  // What is left of a light's glare may be found as a light again: it becomes part of the first.
+  void add(const DistantLight& light, std::vector<DistantLight>& lights) const {
+    for (DistantLight& other : lights) {
+      const double apart = angle_between_deg(other.direction.cast<double>(), light.direction.cast<double>());
+      if (radians(apart) > max_radius_) continue;
+      const float share = luminance(light.irradiance.data());
+      other.direction = (other.direction * luminance(other.irradiance.data()) + light.direction * share).normalized();
+      other.irradiance += light.irradiance;
+      return;
+    }
+    lights.push_back(light);
+  }
+
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(rest_.width()) + static_cast<std::size_t>(x);
+  }
+
+  std::size_t brightest_left() const {
+    std::size_t best = luminance_.size();
+    float most = 0;
+    for (std::size_t i = 0; i < luminance_.size(); ++i) {
+      if (luminance_[i] > most && !done_[i]) {
+        most = luminance_[i];
+        best = i;
+      }
+    }
+    return best;
+  }
+
+  // Texels whose centres lie within `radius` of a direction.
+  std::vector<Texel> texels_within(const Eigen::Vector3d& centre, double radius) const {
+    std::vector<Texel> texels;
+    const int width = rest_.width();
+    const int height = rest_.height();
+    const double theta = std::acos(std::clamp(centre.y(), -1.0, 1.0));
+    const int first = std::max(0, static_cast<int>(std::floor((theta - radius) / texel_)));
+    const int last = std::min(height - 1, static_cast<int>(std::ceil((theta + radius) / texel_)));
+    const double column = static_cast<double>(uv_from_direction(centre.cast<float>()).x()) * width;
+    for (int y = first; y <= last; ++y) {
+      // Half the width of the disc in this row, generously; near a pole it is the whole row.
+      const double sine = std::min(std::sin(theta), std::sin(kPi * (y + 0.5) / height));
+      const double reach = sine > 0 ? 1.2 * radius / sine / (2.0 * kPi) * width + 1.0 : width;
+      const int half = std::min(width / 2, static_cast<int>(std::ceil(reach)));
+      const int begin = static_cast<int>(std::floor(column)) - half;
+      for (int i = 0; i < std::min(width, 2 * half + 1); ++i) {
+        const int x = ((begin + i) % width + width) % width;
+        const Eigen::Vector3d direction = rest_.direction(x, y).cast<double>();
+        if (radians(angle_between_deg(direction, centre)) > radius) continue;
+        texels.push_back({x, y, texel_solid_angle(y, width, height), direction});
+      }
+    }
+    return texels;
+  }
+
+  Eigen::Vector3f median(const std::vector<Texel>& texels) const {
+    Eigen::Vector3f result;
+    std::vector<float> values(texels.size());
+    for (int c = 0; c < 3; ++c) {
+      std::transform(texels.begin(), texels.end(), values.begin(),
+                     [&](const Texel& t) { return rest_.radiance()(t.x, t.y, c); });
+      const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+      std::nth_element(values.begin(), middle, values.end());
+      result(c) = *middle;
+    }
+    return result;
+  }
+
+  // Luminance over the surround's, integrated, and its centroid.
+  double excess(const std::vector<Texel>& texels, float surround, Eigen::Vector3d* centroid = nullptr) const {
+    double sum = 0;
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    for (const Texel& t : texels) {
+      const double over = t.solid_angle * std::max(0.0, static_cast<double>(luminance_[index(t.x, t.y)] - surround));
+      sum += over;
+      middle += over * t.direction;
+    }
+    if (centroid && sum > 0) *centroid = middle.normalized();
+    return sum;
+  }
+
+  static double area(const std::vector<Texel>& texels) {
+    double sum = 0;
+    for (const Texel& t : texels) sum += t.solid_angle;
+    return sum;
+  }
+
+  // The light about a peak, taken out of the map; nothing when it is too large or too weak. Either way its place is done.
+  std::optional<DistantLight> take(int x, int y) {
+    const Eigen::Vector3d peak = rest_.direction(x, y).cast<double>();
+    done_[index(x, y)] = 1;
+    for (const Disc& tried : kDiscs) {
+      const double radius = tried.radius * max_radius_;
+      const double outer = std::max(kRing * radius, radius + 2.0 * texel_);
+      Eigen::Vector3d centre = peak;
+      std::vector<Texel> disc, ring;
+      Eigen::Vector3f surround;
+      double inside = 0;
+      for (int round = 0; round < 3; ++round) {  // the brightest texel need not be the middle
+        disc.clear();
+        ring.clear();
+        for (const Texel& t : texels_within(centre, outer)) {
+          (radians(angle_between_deg(t.direction, centre)) <= radius ? disc : ring).push_back(t);
+        }
+        if (disc.empty() || ring.empty()) return std::nullopt;  // texels larger than lights
+        surround = median(ring);
+        inside = excess(disc, luminance(surround.data()), &centre);
+      }
+      const double around = excess(ring, luminance(surround.data())) / area(ring);
+      if (around > tried.most_around * inside / area(disc)) continue;
+      for (const Texel& t : disc) done_[index(t.x, t.y)] = 1;
+      if (inside < kLeastShare * total_) return std::nullopt;
+      return cut(disc, surround, centre);
+    }
+    for (const Texel& t : texels_within(peak, 0.5 * max_radius_)) done_[index(t.x, t.y)] = 1;
+    return std::nullopt;
+  }
+
+  DistantLight cut(const std::vector<Texel>& disc, const Eigen::Vector3f& surround, const Eigen::Vector3d& centre) {
+    Eigen::Vector3d irradiance = Eigen::Vector3d::Zero();
+    for (const Texel& t : disc) {
+      Eigen::Map<Eigen::Vector3f> radiance(rest_.radiance().pixel(t.x, t.y));
+      const Eigen::Vector3f kept = radiance.cwiseMin(surround);
+      irradiance += t.solid_angle * (radiance.cast<double>() - kept.cast<double>());
+      radiance = kept;
+      luminance_[index(t.x, t.y)] = luminance(kept.data());
+    }
+    return {centre.cast<float>(), irradiance.cast<float>()};
+  }
+
+  EnvMap rest_;
+  double max_radius_;
+  double texel_;  // radians
+  std::vector<float> luminance_;
+  std::vector<std::uint8_t> done_;  // looked at already
+  double total_ = 0;                // luminance over the sphere
+};
+
+}  // namespace
+
+FoundLights find_lights(const EnvMap& map, int max_count, float max_radius) {
+  return Finder(map, static_cast<double>(max_radius)).find(max_count);
+}
+
+}  // namespace faceprobe::synth
