@@ -34,7 +34,7 @@ struct TensorHeader {
 };
 
 // Throws TensorProblem.
-TensorHeader parse_tensor_header(std::span<const std::byte> file, std::int64_t max_header_bytes,
+TensorHeader parse_tensor_header(std::span<const std::byte> bytes, std::int64_t max_header_bytes,
                                  std::int64_t max_tensors);
 
 // A name from the file, fit for a terminal, and a shape for people.

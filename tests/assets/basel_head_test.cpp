@@ -27,7 +27,7 @@ Variables basel_2009() {
   v["shapePC"] = Eigen::MatrixXd::Zero(15, 2);
   v["shapePC"](14, 0) = 1;  // z of the ridge
   v["shapePC"](1, 1) = 1;   // y of the first point
-  v["shapeEV"] = Eigen::Vector2d(2000, 3000);
+  v["shapeEV"] = (Eigen::MatrixXd(2, 1) << 2000, 3000).finished();
   v["texMU"] = Eigen::MatrixXd::Constant(15, 1, 128);
   v["texPC"] = Eigen::MatrixXd::Zero(15, 1);
   v["texPC"](0, 0) = 1;  // red of the first point

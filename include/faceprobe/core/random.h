@@ -19,7 +19,7 @@ namespace faceprobe {
 
 class Random {
  public:
-  explicit Random(std::initializer_list<std::uint64_t> key);
+  Random(std::initializer_list<std::uint64_t> key);
 
   std::uint32_t bits();                         // 32 of them
   double uniform();                             // [0, 1)
