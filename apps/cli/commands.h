@@ -13,6 +13,7 @@ void add_estimate(CLI::App& program, Action& action);
 void add_separate(CLI::App& program, Action& action);
 void add_info(CLI::App& program, Action& action);
 void add_synth(CLI::App& program, Action& action);
+CLI::App* add_unwrap(CLI::App& synth, Action& action);  // under synth
 
 // Runs the action; every Error becomes its sentence on stderr and its exit code.
 int run_guarded(const Action& action);

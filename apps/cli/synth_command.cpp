@@ -1,14 +1,17 @@
 #include "commands.h"
 #include "faceprobe/assets/heads.h"
 #include "faceprobe/assets/maps.h"
+#include "faceprobe/assets/reflectance_statistics.h"
 #include "faceprobe/assets/skins.h"
 #include "faceprobe/core/error.h"
+#include "faceprobe/core/parallel.h"
 #include "faceprobe/io/picture_file.h"
 #include "faceprobe/synth/contact_sheet.h"
 #include "faceprobe/synth/generate.h"
 #include "faceprobe/synth/procedural_head.h"
 #include "faceprobe/synth/procedural_maps.h"
 
+#include <malloc.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
@@ -23,6 +26,7 @@ struct Options {
   std::vector<std::string> heads;
   std::string skins;
   std::string maps;
+  std::string reflectance;
   std::string output = "faces";
   std::string preview;
   std::string mode = "default";
@@ -44,12 +48,17 @@ synth::Assets load_assets(const Options& options) {
       assets.skins.push_back(synth::prepare_texture(name, std::move(picture)));
     }
   }
-  if (options.maps.empty()) {
-    for (const auto& [name, map] : synth::procedural_maps()) assets.maps.push_back(synth::prepare_map(name, map, {}));
-  } else {
-    for (const auto& [name, map] : assets::load_maps(options.maps))
-      assets.maps.push_back(synth::prepare_map(name, map, {}));
-  }
+  if (!options.reflectance.empty())
+    assets.reflectance = assets::skin_statistics(assets::load_reflectance_statistics(options.reflectance));
+  const std::vector<std::pair<std::string, EnvMap>> maps =
+      options.maps.empty() ? synth::procedural_maps() : assets::load_maps(options.maps);
+  assets.maps.resize(maps.size());
+  parallel_for(static_cast<int>(maps.size()), options.threads, [&](int first, int last) {
+    for (int i = first; i < last; ++i) {
+      const auto& [name, map] = maps[static_cast<std::size_t>(i)];
+      assets.maps[static_cast<std::size_t>(i)] = synth::prepare_map(name, map, {});
+    }
+  });
   return assets;
 }
 
@@ -102,6 +111,10 @@ int run(Options options) {
                          : options.split == "dev" ? synth::Split::kDev
                                                   : synth::Split::kAll;
   if (const std::string problem = options.recipe.validate(); !problem.empty()) throw Error(ExitCode::kUsage, problem);
+  // A sample is made of pictures of some hundred kB that come and go by the thousand: memory given back to the system between
+  // them would be cleared and mapped again each time, a tenth of the run.
+  mallopt(M_MMAP_THRESHOLD, 256 << 20);
+  mallopt(M_TRIM_THRESHOLD, 1 << 30);
   const synth::Assets assets = load_assets(options);
   Progress progress;
   const synth::DatasetReport report =
@@ -138,6 +151,8 @@ void add_synth(CLI::App& program, Action& action) {
   command->add_option("--skins", options->skins, "folder of skin textures in the head's UVs");
   command->add_option("--maps", options->maps,
                       "folder of HDR environment maps, .hdr or .exr; without it a few built-in ones");
+  command->add_option("--reflectance", options->reflectance,
+                      "measured skin reflectance (MERL/ETH ts_data.mat) in place of the built-in estimate");
   command->add_option("--count", recipe.count, "samples to make")->capture_default_str();
   command->add_option("--size", recipe.size_px, "width and height of a sample, px")->capture_default_str();
   command->add_option("--seed", recipe.seed, "the same seed gives the same bytes")->capture_default_str();
@@ -149,6 +164,8 @@ void add_synth(CLI::App& program, Action& action) {
   command->add_option("--split", options->split, "train and dev share no identity and no skin texture")
       ->check(CLI::IsMember({"all", "train", "dev"}))
       ->capture_default_str();
+  command->add_flag("--multi-face", recipe.multi_face,
+                    "two to four people to a picture and lamps at known places among distant light; from 192 px");
   command->add_option("--views", recipe.views_per_person, "poses of each person")->capture_default_str();
   command->add_option("--lights", recipe.samples_per_view, "maps that light each pose")->capture_default_str();
   command->add_option("--skins-per-person", recipe.skins_per_person, "skins that take turns")->capture_default_str();
@@ -165,7 +182,10 @@ void add_synth(CLI::App& program, Action& action) {
       "A run that was cut off goes on where it stopped when the same command is given again.\n\nExample:\n"
       "  faceprobe synth --heads ict_facekit --skins skins --maps hdri/train --count 20000 --seed 1 --split train \\\n"
       "    -o faces --preview faces.png");
-  command->callback([options, &action] { action = [options] { return run(*options); }; });
+  const CLI::App* unwrap = add_unwrap(*command, action);
+  command->callback([options, unwrap, &action] {
+    if (!unwrap->parsed()) action = [options] { return run(*options); };
+  });
 }
 
 }  // namespace faceprobe::cli

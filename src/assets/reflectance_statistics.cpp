@@ -82,4 +82,16 @@ ReflectanceStatistics load_reflectance_statistics(const std::filesystem::path& p
   return statistics;
 }
 
+synth::SkinStatistics skin_statistics(const ReflectanceStatistics& statistics) {
+  synth::SkinStatistics result;
+  for (int r = 0; r < kSkinRegionCount; ++r) {
+    const RegionReflectance* region = statistics.of(static_cast<Region>(r + 1));
+    if (region == nullptr) continue;
+    result.regions[static_cast<std::size_t>(r)] = {
+        static_cast<float>(region->mean_roughness), static_cast<float>(region->roughness_deviation),
+        static_cast<float>(region->mean_specular_albedo), static_cast<float>(region->specular_albedo_deviation), true};
+  }
+  return result;
+}
+
 }  // namespace faceprobe::assets

@@ -46,6 +46,25 @@ TEST(ReflectanceStatistics, AreMeansAndDeviationsOfTheFilesOwnNumbers) {
   }
 }
 
+TEST(ReflectanceStatistics, ReachTheSkinsThatAreDrawn) {
+  const TempFolder folder;
+  testing::write_mat(folder / "ts_data.mat", measured(), MatVersion::k5);
+  const synth::SkinStatistics statistics = skin_statistics(load_reflectance_statistics(folder / "ts_data.mat"));
+  const auto nose = static_cast<std::size_t>(Region::kNose) - 1;
+  const auto chin = static_cast<std::size_t>(Region::kChin) - 1;
+  EXPECT_TRUE(statistics.regions[nose].measured);
+  EXPECT_FALSE(statistics.regions[chin].measured);
+  Random with({1, 2});
+  Random without({1, 2});
+  const synth::SkinSettings skin = synth::draw_skin(0, with, &statistics);
+  const synth::SkinSettings estimate = synth::draw_skin(0, without);
+  // One sample has no spread, so that the nose is exactly as measured; a region without samples stays as it was.
+  EXPECT_FLOAT_EQ(skin.roughness[nose], 0.25F);
+  EXPECT_FLOAT_EQ(skin.specular_albedo[nose], 0.5F);
+  EXPECT_EQ(skin.roughness[chin], estimate.roughness[chin]);
+  EXPECT_EQ(skin.specular_albedo[chin], estimate.specular_albedo[chin]);
+}
+
 TEST(ReflectanceStatistics, RefuseWhatDoesNotFit) {
   const TempFolder folder;
   const auto refused = [&](const std::function<void(Variables&)>& change, std::initializer_list<std::string_view> words) {

@@ -6,6 +6,7 @@
 //   float m = measured.of(Region::kNose)->mean_roughness;
 
 #include "faceprobe/core/region.h"
+#include "faceprobe/synth/skin.h"
 
 #include <array>
 #include <filesystem>
@@ -35,5 +36,8 @@ struct ReflectanceStatistics {
 
 // Throws Error(kInput): not a MATLAB file, a variable missing, sizes that do not go together, a region or subject that does not exist.
 ReflectanceStatistics load_reflectance_statistics(const std::filesystem::path& path);
+
+// As the generator of synthetic faces takes them (all skin types together).
+synth::SkinStatistics skin_statistics(const ReflectanceStatistics& statistics);
 
 }  // namespace faceprobe::assets

@@ -5,6 +5,7 @@
 #include "faceprobe/synth/map_light.h"
 #include "faceprobe/synth/skin.h"
 
+#include <optional>
 #include <vector>
 
 namespace faceprobe::synth {
@@ -13,6 +14,7 @@ struct Assets {
   std::vector<HeadModel> heads;    // at least one
   std::vector<SkinTexture> skins;  // may be empty: plain skin then
   std::vector<MapLight> maps;      // at least one
+  std::optional<SkinStatistics> reflectance;  // measured; else the estimate of core/skin_reflectance.h
 };
 
 }  // namespace faceprobe::synth

@@ -9,6 +9,8 @@
 #include "faceprobe/synth/sample.h"
 #include "faceprobe/synth/transport.h"
 
+#include <span>
+
 namespace faceprobe::synth {
 
 // What multiplies light, per fragment, in one skin.
@@ -27,8 +29,8 @@ FragmentSurface plain_lobes(const Fragments& fragments);
 void add_person_lobes(const Person& person, const Fragments& fragments, const PinholeCamera& camera,
                       FragmentSurface& lobes);
 
-// Geometry layers of a view.
-ViewLayers view_layers(const Person& person, const View& view, const Fragments& fragments);
+// Geometry layers of a view of these people.
+ViewLayers view_layers(std::span<const Person> people, const View& view, const Fragments& fragments);
 
 // Light mixed within the skin: shading (#F x 3) of skin fragments blurred over the picture, by channel, as far as light
 // scatters (mean free paths after Jensen et al. 2001: red farthest). Other materials keep theirs.

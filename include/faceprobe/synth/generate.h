@@ -30,7 +30,7 @@ struct GenerateTimes {
   GenerateTimes& operator+=(const GenerateTimes& other);
 };
 
-// All views of one person. `threads` as in core/parallel.h.
+// All views of one person, or of group number `person` for Recipe::multi_face. `threads` as in core/parallel.h.
 std::vector<ViewSamples> generate_person(const Assets& assets, const Recipe& recipe, int person, int threads = 1,
                                          GenerateTimes* times = nullptr);
 

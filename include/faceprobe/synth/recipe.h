@@ -1,7 +1,7 @@
 #pragma once
 // What a data set of synthetic faces is made of, apart from the assets: numbers and shares, drawn from one seed.
 //
-// Work is split by person: one head, expression and set of clothes, seen in a few views (pose and camera), each view lit by many maps,
+// Work is split by person, or by group: one head, expression and set of clothes, seen in a few views (pose and camera), each view lit by many maps,
 // in a few skins. One shard of the data set is one person, so that shards depend on nothing but the seed and their number.
 
 #include <cstdint>
@@ -23,7 +23,8 @@ struct Recipe {
   std::uint64_t seed = 1;
   Mode mode = Mode::kDefault;
   Split split = Split::kAll;  // kTrain leaves out every sixth texture, kDev uses only those; identities differ too
-  int views_per_person = 4;
+  bool multi_face = false;  // two to four people to a picture, lit by lamps at known places, for triangulation; from 192 px on
+  int views_per_person = 4;  // of each person, or of each group
   int samples_per_view = 16;    // maps, with their turns
   int skins_per_person = 4;     // textures and tones that take turns over a view's samples
   int samples_per_side = 3;     // primary rays per pixel and side

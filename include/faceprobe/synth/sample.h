@@ -4,6 +4,7 @@
 
 #include "faceprobe/core/env_map.h"
 #include "faceprobe/core/image.h"
+#include "faceprobe/synth/light_sample.h"
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -13,19 +14,25 @@
 
 namespace faceprobe::synth {
 
-// What does not change from one light to the next.
-struct ViewLayers {
-  Image normal;                         // 3 channels, camera frame, unit length; zero on the background
-  Image depth_m;                        // 1 channel, along the camera's -z; zero on the background
-  ByteImage region;                     // 1 channel, Region
+// One person in a picture.
+struct FaceMarks {
   Eigen::MatrixX2f landmarks_px;        // 68 x 2 or empty
   Eigen::MatrixX2f dense_landmarks_px;  // 468 x 2 or empty
-  float focal_px = 0;
-  Eigen::Vector2f centre_px{0, 0};
   Eigen::Isometry3f camera_from_head = Eigen::Isometry3f::Identity();
   Eigen::VectorXf identity;  // head parameters
   Eigen::VectorXf expression;
   int person = 0;  // samples of one person share it
+};
+
+// What does not change from one light to the next.
+struct ViewLayers {
+  Image normal;      // 3 channels, camera frame, unit length; zero on the background
+  Image depth_m;     // 1 channel, along the camera's -z; zero on the background
+  ByteImage region;  // 1 channel, Region
+  ByteImage owner;   // 1 channel: number in `faces` of the person seen there, plus 1; zero on the background
+  float focal_px = 0;
+  Eigen::Vector2f centre_px{0, 0};
+  std::vector<FaceMarks> faces;  // one, or those of a group from left to right
 };
 
 struct Sample {
@@ -35,7 +42,8 @@ struct Sample {
   Image diffuse;       // the rest of the picture's light; diffuse + highlight = the linear photo before the camera
   Image albedo;        // diffuse reflectance; zero on the background
   Image shading;       // diffuse = albedo * shading on the person; zero on the background
-  EnvMap environment;  // camera frame, same scale
+  EnvMap environment;  // distant light, camera frame, same scale
+  std::vector<NearLight> lamps;  // of a group's room: camera frame, radiance on the same scale
   int map = 0;         // number of the map, and its turn about +y, radians
   float map_yaw = 0;
   std::string settings_json;  // skin, camera and wardrobe as drawn, one JSON object

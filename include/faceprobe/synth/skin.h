@@ -53,7 +53,17 @@ struct SkinSettings {
   float pore_size_m = 0.0012F;
   std::uint64_t seed = 0;  // of freckles, moles, pores
 };
-SkinSettings draw_skin(int texture_count, Random& random);
+// Measured reflectance per region: mean and standard deviation over people. Skin regions without measurements keep the estimate.
+struct SkinStatistics {
+  struct Value {
+    float roughness = 0, roughness_deviation = 0;  // m
+    float specular_albedo = 0, specular_albedo_deviation = 0;
+    bool measured = false;
+  };
+  std::array<Value, kSkinRegionCount> regions;
+};
+// `statistics` replaces the estimate of core/skin_reflectance.h and its jitter; may be null.
+SkinSettings draw_skin(int texture_count, Random& random, const SkinStatistics* statistics = nullptr);
 // The paper's Section 5.1: one specular albedo, uniform in [0, 1], for the whole face; no make-up, no pores.
 SkinSettings draw_paper_skin(int texture_count, Random& random);
 

@@ -1,10 +1,12 @@
 #include "faceprobe/core/parallel.h"
 #include "faceprobe/synth/compose.h"
 #include "faceprobe/synth/generate.h"
+#include "synth/generate/group.h"
 #include "synth/generate/light_sample_draw.h"
 
 #include <chrono>
 #include <nlohmann/json.hpp>
+#include <span>
 
 namespace faceprobe::synth {
 namespace {
@@ -64,6 +66,19 @@ std::string settings_json(const Assets& assets, const SampleDraw& draw, const Sk
   return json.dump();
 }
 
+std::vector<Figure> figures_of(std::span<const Person> people) {
+  std::vector<Figure> figures;
+  for (const Person& person : people) figures.insert(figures.end(), person.figures.begin(), person.figures.end());
+  return figures;
+}
+
+// What dims a map to the level that was drawn for a room with lamps.
+float map_gain_of(const SampleDraw& draw, const MapLight& map) {
+  if (draw.map_level <= 0) return 1.0F;
+  const float irradiance = 3.14159265F * map.mean_radiance.mean();  // of an even sky as bright as the map's mean
+  return irradiance > 0 ? draw.map_level / irradiance : 1.0F;
+}
+
 }  // namespace
 
 std::vector<ViewSamples> generate_person(const Assets& assets, const Recipe& recipe, int person_number, int threads,
@@ -71,12 +86,12 @@ std::vector<ViewSamples> generate_person(const Assets& assets, const Recipe& rec
   GenerateTimes unused;
   GenerateTimes& spent = times != nullptr ? *times : unused;
   Stopwatch watch;
-  const Person person = draw_person(assets, recipe, person_number);
-  const Scene scene(person.figures);
+  const std::vector<Person> people = draw_people(assets, recipe, person_number);
+  const Scene scene(figures_of(people));
   std::vector<View> views;
   std::vector<Fragments> seen;
   for (int v = 0; v < recipe.views_per_person; ++v) {
-    views.push_back(draw_view(person, recipe, v));
+    views.push_back(draw_scene_view(people, recipe, person_number, v));
     seen.push_back(
         find_fragments(scene, views.back().camera, {.samples_per_side = recipe.samples_per_side, .threads = threads}));
   }
@@ -95,9 +110,9 @@ std::vector<ViewSamples> generate_person(const Assets& assets, const Recipe& rec
     const Eigen::Isometry3f& pose = view.camera.camera_from_scene;
     Fragments fragments = std::move(seen[static_cast<std::size_t>(v)]);
     ViewSamples out;
-    out.view = view_layers(person, view, fragments);
+    out.view = view_layers(people, view, fragments);
     FragmentSurface lobes = plain_lobes(fragments);
-    add_person_lobes(person, fragments, view.camera, lobes);
+    for (const Person& person : people) add_person_lobes(person, fragments, view.camera, lobes);
     const ViewTransport view_transport = build_view_transport(scene, transport, std::move(fragments), std::move(lobes),
                                                               pose.inverse().translation(), transport_options);
     watch.lap(spent.transport);
@@ -108,6 +123,7 @@ std::vector<ViewSamples> generate_person(const Assets& assets, const Recipe& rec
     std::vector<SampleDraw> draws(count);
     std::vector<LightSample> lights(count);
     std::vector<Eigen::Matrix3f> camera_from_map(count);
+    std::vector<float> map_gain(count);
     parallel_for(recipe.samples_per_view, threads, [&](int first, int last) {
       for (int s = first; s < last; ++s) {
         const auto k = static_cast<std::size_t>(s);
@@ -115,23 +131,31 @@ std::vector<ViewSamples> generate_person(const Assets& assets, const Recipe& rec
         draws[k] = draw_sample(assets, recipe, random, s);
         camera_from_map[k] = view.camera_from_level * map_turn(draws[k].map_yaw);
         const MapLight& map = assets.maps[static_cast<std::size_t>(draws[k].map)];
-        lights[k] = light_from_map(map, pose.linear().transpose() * camera_from_map[k], Eigen::Vector3f::Ones(), grid);
+        map_gain[k] = map_gain_of(draws[k], map);
+        lights[k] = light_from_map(map, pose.linear().transpose() * camera_from_map[k],
+                                   Eigen::Vector3f::Constant(map_gain[k]), grid);
+        if (recipe.multi_face) {
+          Random lamp_random = view_random.split(static_cast<std::uint64_t>(s)).split(2);
+          lights[k].near = draw_lamps(people, view.camera, lamp_random);
+        }
       }
     });
     const std::vector<FragmentLight> lit = shade(scene, transport, view_transport, lights, {.threads = threads});
     watch.lap(spent.shade);
 
     std::vector<ViewSurface> surfaces;
-    for (const SkinSettings& skin : person.skins) {
+    for (std::size_t k = 0; k < people.front().skins.size(); ++k) {
       surfaces.push_back(empty_surface(transport, view_transport.fragments));
-      add_person_surface(assets, person, skin, scene, transport, view_transport.fragments, surfaces.back());
+      for (const Person& person : people) {
+        add_person_surface(assets, person, person.skins[k], scene, transport, view_transport.fragments, surfaces.back());
+      }
     }
     out.samples.resize(count);
     parallel_for(recipe.samples_per_view, threads, [&](int first, int last) {
       for (int s = first; s < last; ++s) {
         const auto k = static_cast<std::size_t>(s);
         const SampleDraw& draw = draws[k];
-        const SkinSettings& skin = person.skins[static_cast<std::size_t>(draw.skin)];
+        const SkinSettings& skin = people.front().skins[static_cast<std::size_t>(draw.skin)];
         const ViewSurface& surface = surfaces[static_cast<std::size_t>(draw.skin)];
         const MapLight& map = assets.maps[static_cast<std::size_t>(draw.map)];
         Eigen::MatrixX3f shading = lit[k].shading;
@@ -140,9 +164,10 @@ std::vector<ViewSamples> generate_person(const Assets& assets, const Recipe& rec
         if (recipe.mode == Mode::kDefault) scatter_below_surface(view_transport.fragments, view.camera, shading);
         const FaceMean mean = face_mean(view_transport.fragments, surface, shading, lit[k].specular);
         const Eigen::Vector3f gain = exposure_gain(draw, mean.radiance, mean.light, skin.target_tone);
+        const Eigen::Vector3f distant_gain = map_gain[k] * gain;
         const Image background = recipe.mode == Mode::kPaper ? Image(recipe.size_px, recipe.size_px, 3)
                                                              : draw_background(map, view.camera, camera_from_map[k],
-                                                                               gain, draw.background_blur_px);
+                                                                               distant_gain, draw.background_blur_px);
         LinearLayers layers =
             gather_layers(view_transport.fragments, surface, shading, lit[k].specular, background, gain);
         Image radiance = layers.diffuse;
@@ -158,7 +183,12 @@ std::vector<ViewSamples> generate_person(const Assets& assets, const Recipe& rec
         sample.albedo = std::move(layers.albedo);
         sample.shading = std::move(layers.shading);
         sample.environment =
-            map_in_frame(map, camera_from_map[k], gain, 2 * recipe.environment_height, recipe.environment_height);
+            map_in_frame(map, camera_from_map[k], distant_gain, 2 * recipe.environment_height, recipe.environment_height);
+        for (NearLight lamp : lights[k].near) {
+          lamp.position = pose * lamp.position;
+          lamp.radiance = lamp.radiance.cwiseProduct(gain);
+          sample.lamps.push_back(lamp);
+        }
         sample.map = draw.map;
         sample.map_yaw = draw.map_yaw;
         sample.settings_json = settings_json(assets, draw, skin, gain);

@@ -10,24 +10,44 @@ bool is_lens(const Fragments& fragments, int i) {
   return fragments.material[static_cast<std::size_t>(i)] == Material::kLens;
 }
 
-Eigen::MatrixX2f project(const PinholeCamera& camera, const Eigen::MatrixX3f& points) {
-  Eigen::MatrixX2f pixels(points.rows(), 2);
-  for (Eigen::Index i = 0; i < points.rows(); ++i) {
-    const Eigen::Vector3f point_cam = camera.camera_from_scene * Eigen::Vector3f(points.row(i).transpose());
-    pixels.row(i) = camera.project(point_cam).transpose();
+Eigen::MatrixX2f project(const PinholeCamera& camera, const Eigen::Isometry3f& camera_from_head,
+                         const Eigen::MatrixX3f& points_head) {
+  Eigen::MatrixX2f pixels(points_head.rows(), 2);
+  for (Eigen::Index i = 0; i < points_head.rows(); ++i) {
+    pixels.row(i) = camera.project(camera_from_head * Eigen::Vector3f(points_head.row(i).transpose())).transpose();
   }
   return pixels;
 }
 
+FaceMarks marks_of(const Person& person, const PinholeCamera& camera) {
+  FaceMarks marks;
+  marks.camera_from_head = camera.camera_from_scene * person.scene_from_head;
+  marks.landmarks_px = project(camera, marks.camera_from_head, person.head.landmarks);
+  marks.dense_landmarks_px = project(camera, marks.camera_from_head, person.head.dense_landmarks);
+  marks.identity = person.parameters.identity;
+  marks.expression = person.parameters.expression;
+  marks.person = person.number;
+  return marks;
+}
+
+// Number in `people` of whose figure it is, plus 1.
+std::uint8_t owner_of(std::span<const Person> people, int figure) {
+  for (std::size_t p = 0; p < people.size(); ++p) {
+    if (people[p].owns_figure(figure)) return static_cast<std::uint8_t>(p + 1);
+  }
+  return 0;
+}
+
 }  // namespace
 
-ViewLayers view_layers(const Person& person, const View& view, const Fragments& fragments) {
+ViewLayers view_layers(std::span<const Person> people, const View& view, const Fragments& fragments) {
   const int width = fragments.width_px;
   const int height = fragments.height_px;
   ViewLayers layers;
   layers.normal = Image(width, height, 3);
   layers.depth_m = Image(width, height, 1);
   layers.region = ByteImage(width, height, 1);
+  layers.owner = ByteImage(width, height, 1);
   Image cover(width, height, 1);
   Image largest(width, height, 1);  // share of the region that is written
   const Eigen::Matrix3f turn = view.camera.camera_from_scene.linear();
@@ -44,6 +64,7 @@ ViewLayers view_layers(const Person& person, const View& view, const Fragments& 
     if (c > largest(x, y)) {
       largest(x, y) = c;
       layers.region(x, y) = static_cast<std::uint8_t>(fragments.region[k]);
+      layers.owner(x, y) = owner_of(people, fragments.figure[k]);
     }
   }
   for (int i = 0; i < fragments.count(); ++i) {  // what is seen through a lens is under glass
@@ -60,17 +81,14 @@ ViewLayers view_layers(const Person& person, const View& view, const Fragments& 
       const float length = normal.norm();
       if (length > 0) Eigen::Map<Eigen::Vector3f>(layers.normal.pixel(x, y)) /= length;
       layers.depth_m(x, y) /= cover(x, y);
-      if (cover(x, y) < 0.5F) layers.region(x, y) = static_cast<std::uint8_t>(Region::kNone);
+      if (cover(x, y) >= 0.5F) continue;
+      layers.region(x, y) = static_cast<std::uint8_t>(Region::kNone);
+      layers.owner(x, y) = 0;
     }
   }
-  layers.landmarks_px = project(view.camera, person.head.landmarks);
-  layers.dense_landmarks_px = project(view.camera, person.head.dense_landmarks);
   layers.focal_px = view.camera.focal_px;
   layers.centre_px = view.camera.centre_px;
-  layers.camera_from_head = view.camera.camera_from_scene;
-  layers.identity = person.parameters.identity;
-  layers.expression = person.parameters.expression;
-  layers.person = person.number;
+  for (const Person& person : people) layers.faces.push_back(marks_of(person, view.camera));
   return layers;
 }
 

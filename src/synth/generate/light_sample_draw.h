@@ -10,6 +10,7 @@ namespace faceprobe::synth {
 struct SampleDraw {
   int map = 0;
   float map_yaw = 0;
+  float map_level = 0;  // mean irradiance of the map in a room with lamps; 0 = the map as it is
   int skin = 0;
   float white_balance = 0;        // share of the light's colour that the camera takes out
   Eigen::Vector3f cast{1, 1, 1};  // what its white balance gets wrong

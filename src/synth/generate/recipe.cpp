@@ -44,6 +44,12 @@ std::string Recipe::validate() const {
       return out_of_range(limit.name, limit.value, limit.low, limit.high);
     }
   }
+  constexpr int kLeastGroupPx = 192;  // below, a face of four has fewer than 40 px
+  if (multi_face && size_px < kLeastGroupPx) {
+    return "size is " + std::to_string(size_px) + ", too small for several faces; allowed is " +
+           std::to_string(kLeastGroupPx) + " to 1024.";
+  }
+  if (multi_face && mode == Mode::kPaper) return "the paper's mode has one face to a picture; leave out multi-face.";
   return {};
 }
 
@@ -54,6 +60,7 @@ std::string to_json(const Recipe& recipe) {
       {"seed", recipe.seed},
       {"mode", name_of(recipe.mode)},
       {"split", name_of(recipe.split)},
+      {"multi_face", recipe.multi_face},
       {"views_per_person", recipe.views_per_person},
       {"samples_per_view", recipe.samples_per_view},
       {"skins_per_person", recipe.skins_per_person},

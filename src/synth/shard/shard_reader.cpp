@@ -63,6 +63,33 @@ Matrix matrix_of(std::span<const float> values, Eigen::Index columns) {
   return matrix;
 }
 
+std::vector<NearLight> lamps_of(std::span<const float> rows) {
+  std::vector<NearLight> lamps;
+  for (std::size_t at = 0; at + 7 <= rows.size(); at += 7) {
+    const float* row = rows.data() + at;
+    if (row[3] > 0) lamps.push_back({{row[0], row[1], row[2]}, row[3], {row[4], row[5], row[6]}});
+  }
+  return lamps;
+}
+
+// Face number `at` of all in the file (view x faces per view + face).
+FaceMarks face_of(const MappedTensors& file, std::size_t at) {
+  const auto part = [&](const char* name) {
+    const std::vector<std::int64_t>& shape = file.shape(name);
+    std::size_t size = 1;
+    for (std::size_t axis = 2; axis < shape.size(); ++axis) size *= static_cast<std::size_t>(shape[axis]);
+    return file.values<float>(name, shape).subspan(at * size, size);
+  };
+  FaceMarks face;
+  face.landmarks_px = matrix_of<Eigen::MatrixX2f>(part("view.landmarks68"), 2);
+  face.dense_landmarks_px = matrix_of<Eigen::MatrixX2f>(part("view.landmarks_dense"), 2);
+  face.camera_from_head.matrix() = matrix_of<Eigen::MatrixXf>(part("view.camera_from_head"), 4);
+  face.identity = matrix_of<Eigen::MatrixXf>(part("view.identity"), 1);
+  face.expression = matrix_of<Eigen::MatrixXf>(part("view.expression"), 1);
+  face.person = file.values<std::int32_t>("view.person", {-1, -1})[at];
+  return face;
+}
+
 }  // namespace
 
 ShardReader::ShardReader(const std::filesystem::path& folder) {
@@ -99,6 +126,7 @@ Sample ShardReader::copy_sample(int number) const {
   const auto index = static_cast<std::size_t>(at);
   sample.map = file->values<std::int32_t>("sample.map", {-1})[index];
   sample.map_yaw = file->values<float>("sample.map_yaw", {-1})[index];
+  if (file->has("sample.lamps")) sample.lamps = lamps_of(floats_of(*file, "sample.lamps", at));
   const std::span<const std::int64_t> begin = file->values<std::int64_t>("sample.settings_begin", {-1});
   const std::span<const std::uint8_t> text = file->values<std::uint8_t>("sample.settings", {-1});
   const auto first = static_cast<std::size_t>(begin[index]);
@@ -119,15 +147,16 @@ ViewLayers ShardReader::copy_view(int number) const {
   view.normal = image_of(*file, "view.normal", at, 3);
   view.depth_m = image_of(*file, "view.depth", at, 1);
   view.region = bytes_of(*file, "view.region", at, 1);
-  view.landmarks_px = matrix_of<Eigen::MatrixX2f>(floats_of(*file, "view.landmarks68", at), 2);
-  view.dense_landmarks_px = matrix_of<Eigen::MatrixX2f>(floats_of(*file, "view.landmarks_dense", at), 2);
+  view.owner = bytes_of(*file, "view.owner", at, 1);
   const std::span<const float> camera = floats_of(*file, "view.camera", at);
   view.focal_px = camera[0];
   view.centre_px = {camera[1], camera[2]};
-  view.camera_from_head.matrix() = matrix_of<Eigen::MatrixXf>(floats_of(*file, "view.camera_from_head", at), 4);
-  view.identity = matrix_of<Eigen::MatrixXf>(floats_of(*file, "view.identity", at), 1);
-  view.expression = matrix_of<Eigen::MatrixXf>(floats_of(*file, "view.expression", at), 1);
-  view.person = file->values<std::int32_t>("view.person", {-1})[static_cast<std::size_t>(at)];
+  const auto faces = static_cast<std::size_t>(file->shape("view.person").at(1));
+  const std::span<const std::int32_t> person = file->values<std::int32_t>("view.person", {-1, -1});
+  for (std::size_t f = 0; f < faces; ++f) {
+    const std::size_t face = static_cast<std::size_t>(at) * faces + f;
+    if (person[face] >= 0) view.faces.push_back(face_of(*file, face));
+  }
   return view;
 }
 

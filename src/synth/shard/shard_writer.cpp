@@ -14,7 +14,7 @@ namespace {
 using Shape = std::vector<std::int64_t>;
 using io::Half;
 
-constexpr int kFormat = 1;
+constexpr int kFormat = 2;
 constexpr const char* kRecipeFile = "recipe.json";
 
 void put_half(const Image& image, std::span<Half> all, std::size_t item) {
@@ -35,40 +35,95 @@ void put_rows(const Matrix& matrix, std::span<float> all, std::size_t item, std:
   }
 }
 
+// How long the longest list of each kind is; shorter ones are filled up with zeros.
+struct FaceSizes {
+  std::size_t faces = 1, marks = 0, dense = 0, identity = 0, expression = 0;
+};
+
+FaceSizes sizes_of(std::span<const ViewSamples> views) {
+  const auto grow = [](std::size_t& size, Eigen::Index length) {
+    size = std::max(size, static_cast<std::size_t>(length));
+  };
+  FaceSizes sizes;
+  for (const ViewSamples& v : views) {
+    grow(sizes.faces, static_cast<Eigen::Index>(v.view.faces.size()));
+    for (const FaceMarks& face : v.view.faces) {
+      grow(sizes.marks, face.landmarks_px.rows());
+      grow(sizes.dense, face.dense_landmarks_px.rows());
+      grow(sizes.identity, face.identity.size());
+      grow(sizes.expression, face.expression.size());
+    }
+  }
+  return sizes;
+}
+
+Shape shape(std::initializer_list<std::size_t> lengths) {
+  Shape result;
+  for (const std::size_t length : lengths) result.push_back(static_cast<std::int64_t>(length));
+  return result;
+}
+
+void add_faces(std::span<const ViewSamples> views, io::TensorFileBuilder& file) {
+  const FaceSizes size = sizes_of(views);
+  const std::size_t count = views.size();
+  const auto landmarks = file.add<float>("view.landmarks68", shape({count, size.faces, size.marks, 2}));
+  const auto dense = file.add<float>("view.landmarks_dense", shape({count, size.faces, size.dense, 2}));
+  const auto pose = file.add<float>("view.camera_from_head", shape({count, size.faces, 4, 4}));
+  const auto identities = file.add<float>("view.identity", shape({count, size.faces, size.identity}));
+  const auto expressions = file.add<float>("view.expression", shape({count, size.faces, size.expression}));
+  const auto person = file.add<std::int32_t>("view.person", shape({count, size.faces}));
+  std::ranges::fill(person, -1);
+  for (std::size_t v = 0; v < count; ++v) {
+    for (std::size_t f = 0; f < views[v].view.faces.size(); ++f) {
+      const FaceMarks& face = views[v].view.faces[f];
+      const std::size_t at = v * size.faces + f;
+      put_rows(face.landmarks_px, landmarks, at, 2 * size.marks);
+      put_rows(face.dense_landmarks_px, dense, at, 2 * size.dense);
+      put_rows(face.camera_from_head.matrix(), pose, at, 16);
+      put_rows(face.identity, identities, at, size.identity);
+      put_rows(face.expression, expressions, at, size.expression);
+      person[at] = face.person;
+    }
+  }
+}
+
 void add_views(std::span<const ViewSamples> views, int size_px, io::TensorFileBuilder& file) {
   const auto count = static_cast<std::int64_t>(views.size());
-  std::int64_t identity = 0;
-  std::int64_t expression = 0;
-  std::int64_t dense = 0;
-  std::int64_t marks = 0;
-  for (const ViewSamples& v : views) {
-    identity = std::max<std::int64_t>(identity, v.view.identity.size());
-    expression = std::max<std::int64_t>(expression, v.view.expression.size());
-    dense = std::max<std::int64_t>(dense, v.view.dense_landmarks_px.rows());
-    marks = std::max<std::int64_t>(marks, v.view.landmarks_px.rows());
-  }
   const auto normal = file.add<Half>("view.normal", {count, size_px, size_px, 3});
   const auto depth = file.add<Half>("view.depth", {count, size_px, size_px});
   const auto region = file.add<std::uint8_t>("view.region", {count, size_px, size_px});
-  const auto landmarks = file.add<float>("view.landmarks68", {count, marks, 2});
-  const auto landmarks_dense = file.add<float>("view.landmarks_dense", {count, dense, 2});
+  const auto owner = file.add<std::uint8_t>("view.owner", {count, size_px, size_px});
   const auto camera = file.add<float>("view.camera", {count, 3});
-  const auto pose = file.add<float>("view.camera_from_head", {count, 4, 4});
-  const auto identities = file.add<float>("view.identity", {count, identity});
-  const auto expressions = file.add<float>("view.expression", {count, expression});
-  const auto person = file.add<std::int32_t>("view.person", {count});
   for (std::size_t v = 0; v < views.size(); ++v) {
     const ViewLayers& view = views[v].view;
     put_half(view.normal, normal, v);
     put_half(view.depth_m, depth, v);
     put_bytes(view.region, region, v);
-    put_rows(view.landmarks_px, landmarks, v, static_cast<std::size_t>(2 * marks));
-    put_rows(view.dense_landmarks_px, landmarks_dense, v, static_cast<std::size_t>(2 * dense));
+    put_bytes(view.owner, owner, v);
     put_rows(Eigen::RowVector3f(view.focal_px, view.centre_px.x(), view.centre_px.y()), camera, v, 3);
-    put_rows(view.camera_from_head.matrix(), pose, v, 16);
-    put_rows(view.identity, identities, v, static_cast<std::size_t>(identity));
-    put_rows(view.expression, expressions, v, static_cast<std::size_t>(expression));
-    person[v] = view.person;
+  }
+  add_faces(views, file);
+}
+
+// Rows of position, radius, radiance; a radius of 0 marks a row that is no lamp.
+void add_lamps(std::span<const ViewSamples> views, std::size_t samples, io::TensorFileBuilder& file) {
+  std::size_t most = 0;
+  for (const ViewSamples& view : views) {
+    for (const Sample& sample : view.samples) most = std::max(most, sample.lamps.size());
+  }
+  if (most == 0) return;
+  const auto lamps = file.add<float>("sample.lamps", shape({samples, most, 7}));
+  std::size_t s = 0;
+  for (const ViewSamples& view : views) {
+    for (const Sample& sample : view.samples) {
+      for (std::size_t l = 0; l < sample.lamps.size(); ++l) {
+        const NearLight& lamp = sample.lamps[l];
+        Eigen::Matrix<float, 1, 7> row;
+        row << lamp.position.transpose(), lamp.radius, lamp.radiance.transpose();
+        put_rows(row, lamps, s * most + l, 7);
+      }
+      ++s;
+    }
   }
 }
 
@@ -99,6 +154,7 @@ void add_samples(std::span<const ViewSamples> views, const ShardSpec& spec, io::
   const auto text_begin = file.add<std::int64_t>("sample.settings_begin", {count + 1});
   if (!settings.empty()) std::memcpy(text.data(), settings.data(), settings.size());
   std::ranges::copy(settings_begin, text_begin.begin());
+  add_lamps(views, static_cast<std::size_t>(count), file);
   std::size_t s = 0;
   for (std::size_t v = 0; v < views.size(); ++v) {
     for (const Sample& sample : views[v].samples) {
@@ -178,7 +234,7 @@ bool ShardWriter::has(int shard) const { return std::filesystem::exists(folder_ 
 
 void ShardWriter::write(int shard, std::span<const ViewSamples> views) const {
   io::TensorFileBuilder file;
-  file.set_metadata("format", "faceprobe synth " + std::to_string(kFormat));
+  file.set_metadata("format", std::string("faceprobe synth ").append(std::to_string(kFormat)));
   add_samples(views, spec_, file);
   add_views(views, spec_.size_px, file);
   file.write(folder_ / shard_name(shard));

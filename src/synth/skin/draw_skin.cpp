@@ -65,6 +65,24 @@ void draw_reflectance(Random& random, SkinSettings& skin) {
   }
 }
 
+// One person is shiny or dull all over: half of the measured variance is taken to be the person's, half the region's own.
+void draw_measured_reflectance(const SkinStatistics& statistics, Random& random, SkinSettings& skin) {
+  constexpr double kShared = 0.7071;
+  const double rough = random.normal();
+  const double shiny = random.normal();
+  for (std::size_t i = 0; i < statistics.regions.size(); ++i) {
+    const double own_rough = random.normal();
+    const double own_shiny = random.normal();
+    const SkinStatistics::Value& value = statistics.regions[i];
+    if (!value.measured) continue;
+    skin.roughness[i] = std::clamp(
+        value.roughness + value.roughness_deviation * static_cast<float>(kShared * (rough + own_rough)), 0.1F, 0.7F);
+    skin.specular_albedo[i] =
+        std::clamp(value.specular_albedo + value.specular_albedo_deviation * static_cast<float>(kShared * (shiny + own_shiny)),
+                   0.01F, 1.0F);
+  }
+}
+
 std::uint64_t draw_seed(Random& random) {
   const std::uint64_t high = random.bits();
   return (high << 32U) | random.bits();
@@ -74,7 +92,7 @@ int draw_texture(int texture_count, Random& random) { return texture_count > 0 ?
 
 }  // namespace
 
-SkinSettings draw_skin(int texture_count, Random& random) {
+SkinSettings draw_skin(int texture_count, Random& random, const SkinStatistics* statistics) {
   SkinSettings skin;
   skin.texture = draw_texture(texture_count, random);
   float melanin = 0;
@@ -98,6 +116,7 @@ SkinSettings draw_skin(int texture_count, Random& random) {
   if (random.chance(0.35)) skin.brow = brow;
   if (skin.texture < 0) skin.brow = between(random, 0.6, 1.0);  // there are none in plain skin
   draw_reflectance(random, skin);
+  if (statistics != nullptr) draw_measured_reflectance(*statistics, random, skin);
   skin.pore_slope = between(random, 0.02, 0.12);
   skin.pore_size_m = between(random, 0.0007, 0.0018);
   skin.seed = draw_seed(random);

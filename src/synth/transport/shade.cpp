@@ -1,4 +1,5 @@
 #include "faceprobe/core/parallel.h"
+#include "faceprobe/core/sphere_grid.h"
 #include "faceprobe/synth/matrix_product.h"
 #include "faceprobe/synth/transport.h"
 
@@ -60,13 +61,17 @@ class SmallLights {
  public:
   SmallLights(const Scene& scene, const SceneTransport& transport, const ViewTransport& view,
               const ShadeOptions& options)
-      : scene_(scene), vertices_(vertex_points(scene, transport)), surfaces_(fragment_points(scene, transport, view)),
+      : scene_(scene), transport_(transport), grid_(transport.nside), vertices_(vertex_points(scene, transport)),
+         surfaces_(fragment_points(scene, transport, view)),
         hairs_(hair_points(scene, view.fragments, view.surface, view.camera_position)), options_(options) {}
 
   void add(std::span<const LightSample> samples, std::span<FragmentLight> out) {
     lit_.clear();
+    sky_.clear();
     for (const LightSample& sample : samples) {
       lit_.emplace_back(sample.distant.size(), std::vector<std::uint8_t>(static_cast<std::size_t>(vertices_.count())));
+      sky_.emplace_back();
+      for (const DistantLight& light : sample.distant) sky_.back().emplace_back(transport_, grid_, light.direction);
     }
     const auto count = static_cast<int>(samples.size());
     for_pieces(count, chunks(vertices_.count()),
@@ -91,7 +96,8 @@ class SmallLights {
     const int first = chunk * kChunk;
     const int count = std::min(kChunk, vertices_.count() - first);
     for (std::size_t k = 0; k < sample.distant.size(); ++k) {
-      add_distant(scene_, vertices_, first, count, sample.distant[k], out.vertex_shading, lit_[s][k].data());
+      add_distant(scene_, vertices_, first, count, sample.distant[k], sky_[s][k], out.vertex_shading,
+                  lit_[s][k].data());
     }
     for (const NearLight& light : sample.near) add_near(scene_, vertices_, first, count, light, out.vertex_shading);
   }
@@ -115,11 +121,14 @@ class SmallLights {
   }
 
   const Scene& scene_;
+  const SceneTransport& transport_;
+  SphereGrid grid_;
   SurfacePoints vertices_;
   SurfacePoints surfaces_;
   HairPoints hairs_;
   ShadeOptions options_;
   std::vector<std::vector<std::vector<std::uint8_t>>> lit_;  // sample, distant light, row
+  std::vector<std::vector<KnownSky>> sky_;                   // sample, distant light
 };
 
 }  // namespace

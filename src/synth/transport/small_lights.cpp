@@ -53,7 +53,7 @@ void smooth_edges(const Scene& scene, const SurfacePoints& points, int first, co
   for (int i = 0; i < n_l.size(); ++i) {
     const int p = first + i;
     if (n_l(i) <= 0 || points.pixel_m(p) <= 0) continue;
-    const int sum = lit[points.row(p, 0)] + lit[points.row(p, 1)] + lit[points.row(p, 2)];
+    const int sum = (lit[points.row(p, 0)] & kLit) + (lit[points.row(p, 1)] & kLit) + (lit[points.row(p, 2)] & kLit);
     if (sum == 3 * static_cast<int>(share(i))) continue;
     const Eigen::Vector3f normal = points.normal.row(p).transpose();
     const Eigen::Vector3f view = points.view.row(p).transpose();
@@ -157,11 +157,18 @@ Beam near_beam(const NearLight& light, const Eigen::MatrixX3f& origins, int firs
 }  // namespace
 
 void add_distant(const Scene& scene, const SurfacePoints& vertices, int first, int count, const DistantLight& light,
-                 Eigen::MatrixX3f& shading, std::uint8_t* lit) {
+                 const KnownSky& sky, Eigen::MatrixX3f& shading, std::uint8_t* lit) {
   const Beam beam = distant_beam(light, count);
   const Eigen::ArrayXf n_l = cosines(vertices.normal, first, beam);
-  const Eigen::ArrayXf share = trace(scene, vertices.origin, first, beam, nullptr, [&](int i) { return n_l(i) > 0; });
-  for (int i = 0; i < count; ++i) lit[vertices.index[static_cast<std::size_t>(first + i)]] = share(i) > 0 ? 1 : 0;
+  std::uint8_t* seen = lit + first;  // vertices are in the order of their rows
+  for (int i = 0; i < count; ++i) seen[i] = n_l(i) > 0 ? sky.at(first + i) : std::uint8_t{kDark};
+  const Eigen::ArrayXf traced =
+      trace(scene, vertices.origin, first, beam, nullptr, [&](int i) { return n_l(i) > 0 && (seen[i] & kCertain) == 0; });
+  Eigen::ArrayXf share(count);
+  for (int i = 0; i < count; ++i) {
+    if (traced(i) > 0) seen[i] |= kLit;
+    share(i) = static_cast<float>(seen[i] & kLit);
+  }
   add_diffuse(vertices, first, beam, n_l, share, light.irradiance, shading);
 }
 
@@ -178,8 +185,17 @@ void add_distant(const Scene& scene, const SurfacePoints& fragments, int first, 
   const Beam beam = distant_beam(light, count);
   const Eigen::ArrayXf n_l = cosines(fragments.normal, first, beam);
   const Eigen::ArrayXf lobe_n_l = cosines(fragments.lobe_normal, first, beam);
-  Eigen::ArrayXf share =
-      trace(scene, fragments.origin, first, beam, nullptr, [&](int i) { return n_l(i) > 0 || lobe_n_l(i) > 0; });
+  const auto known = [&](int i) -> std::uint8_t {
+    const int p = first + i;
+    const std::uint8_t seen = lit[fragments.row(p, 0)];
+    const bool agree = seen == lit[fragments.row(p, 1)] && seen == lit[fragments.row(p, 2)];
+    return agree && (seen & kCertain) != 0 ? seen : std::uint8_t{0};
+  };
+  Eigen::ArrayXf share = trace(scene, fragments.origin, first, beam, nullptr,
+                               [&](int i) { return (n_l(i) > 0 || lobe_n_l(i) > 0) && (known(i) & kCertain) == 0; });
+  for (int i = 0; i < count; ++i) {
+    if ((known(i) & kLit) != 0) share(i) = 1.0F;
+  }
   smooth_edges(scene, fragments, first, beam, n_l, lit, share);
   add_diffuse(fragments, first, beam, n_l, share, light.irradiance, shading);
   add_specular(fragments, first, beam, lobe_n_l, share, light.irradiance, specular);

@@ -2,21 +2,23 @@
 // Lights that are smaller than a cell: distant ones and lamps at a place, with a shadow ray each for every point they may reach.
 
 #include "faceprobe/synth/light_sample.h"
+#include "synth/transport/known_sky.h"
 #include "synth/transport/light_points.h"
 
 namespace faceprobe::synth {
 
 // Adds the light that reaches the points first .. first + count - 1.
 
-// lit[row] = 1 where the light shines on the row's vertex.
+// lit[row]: LightSeen of the row's vertex. A ray is traced where `sky` does not know.
 void add_distant(const Scene& scene, const SurfacePoints& vertices, int first, int count, const DistantLight& light,
-                 Eigen::MatrixX3f& shading, std::uint8_t* lit);
+                 const KnownSky& sky, Eigen::MatrixX3f& shading, std::uint8_t* lit);
 // The lamp's middle throws the shadow, and its irradiance is exact above the horizon.
 void add_near(const Scene& scene, const SurfacePoints& vertices, int first, int count, const NearLight& light,
               Eigen::MatrixX3f& shading);
 
-// `lit`: what add_distant() said of the vertices. Where the three around a fragment disagree, with one another or with it, a shadow's
-// edge is near, and four more rays from over the pixel make it smooth.
+// `lit`: what add_distant() said of the vertices. Where all three around a fragment are certain of the same, no ray is traced. Where they
+// disagree, with one another or with the fragment's own ray, a shadow's edge is near, and four more rays from over the pixel make it
+// smooth.
 void add_distant(const Scene& scene, const SurfacePoints& fragments, int first, int count, const DistantLight& light,
                  const std::uint8_t* lit, Eigen::MatrixX3f& shading, Eigen::MatrixX3f& specular);
 // `samples`: points on the lamp.

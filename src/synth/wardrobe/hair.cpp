@@ -135,6 +135,11 @@ class Head_of_hair {
     for (std::size_t i = 1; i < points.size(); ++i) {
       const float clearance = std::min(0.0012F, 0.0006F * static_cast<float>(i)) * anatomy_.scale;
       field_.push_out(points[i], clearance);
+      if (field_.distance(points[i]) >= 0) continue;
+      // Too deep for the field to know the way out: the strand stays near where it was still outside.
+      const Eigen::Vector3f step = points[i] - points[i - 1];
+      points[i] = points[i - 1] + std::min(1.0F, 0.002F * anatomy_.scale / std::max(1e-6F, step.norm())) * step;
+      field_.push_out(points[i], clearance);
     }
   }
 

@@ -86,9 +86,10 @@ TEST(Generate, ShowsAFaceThatIsLitAndSharp) {
     for (const std::uint8_t region : view.view.region.values())
       skin += region >= 1 && region <= kSkinRegionCount ? 1 : 0;
     EXPECT_GT(skin, 48 * 48 / 8);  // the face fills a good part of the picture
-    ASSERT_EQ(view.view.landmarks_px.rows(), 68);
+    ASSERT_EQ(view.view.faces.size(), 1U);
+    ASSERT_EQ(view.view.faces[0].landmarks_px.rows(), 68);
     // The middle of the features is where the camera aims, give or take the drawn offset (2.5 % of the picture, 4 deviations).
-    EXPECT_NEAR(view.view.landmarks_px.col(0).mean(), 24.0F, 7.0F);
+    EXPECT_NEAR(view.view.faces[0].landmarks_px.col(0).mean(), 24.0F, 7.0F);
     for (const Sample& sample : view.samples) {
       EXPECT_EQ(sample.photo.width(), 48);
       for (const float value : sample.highlight.values()) ASSERT_TRUE(std::isfinite(value) && value >= 0);

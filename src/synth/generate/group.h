@@ -1,0 +1,21 @@
+#pragma once
+// Internal: several people in one room, and lamps in it. Scene frame: metres, +y up, the usual camera at the origin looking along -z.
+
+#include "faceprobe/synth/light_sample.h"
+#include "faceprobe/synth/person.h"
+
+#include <span>
+#include <vector>
+
+namespace faceprobe::synth {
+
+// The people of a scene: one in the head's own frame, or for Recipe::multi_face two to four from left to right, placed in the scene.
+std::vector<Person> draw_people(const Assets& assets, const Recipe& recipe, int number);
+
+// Where the camera stands and looks: at a lone person as draw_view() has it; for a group so that every face is in the picture.
+View draw_scene_view(std::span<const Person> people, const Recipe& recipe, int number, int view);
+
+// One to three lamps that the camera does not see, scene frame; together they give the group about the irradiance 1.
+std::vector<NearLight> draw_lamps(std::span<const Person> people, const PinholeCamera& camera, Random& random);
+
+}  // namespace faceprobe::synth
