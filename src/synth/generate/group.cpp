@@ -13,6 +13,7 @@ enum Purpose : std::uint64_t { kPlaces = 21, kCamera };
 constexpr int kMostPeople = 4;
 constexpr double kShoulders = 0.52;    // metres between the middles of neighbours at least: they do not cut through each other
 constexpr float kFaceRoom = 0.16F;     // metres around an origin between the eyes that belong to the face
+constexpr float kWaistY = -0.55F;      // below the eyes, where bodies are about to end
 constexpr float kHeadMiddleY = -0.04F;  // from between the eyes down to the middle of the face
 
 Random scene_random(const Recipe& recipe, int number) {
@@ -89,18 +90,32 @@ View draw_scene_view(std::span<const Person> people, const Recipe& recipe, int n
   const Eigen::Matrix3f roll = turn(0, 0, random.normal(0, radians(3)));
   result.camera.camera_from_scene.linear() = roll * scene_from_camera.transpose();
   result.camera.camera_from_scene.translation() = -(result.camera.camera_from_scene.linear() * stand);
-  result.camera_from_level = result.camera.camera_from_scene.linear();
   result.camera.width_px = result.camera.height_px = recipe.size_px;
   result.camera.centre_px.setConstant(0.5F * static_cast<float>(recipe.size_px));
 
-  // As long a lens as keeps every face inside, with some air.
-  float widest = 0;
-  for (const Person& person : people) {
-    const Eigen::Vector3f at = result.camera.camera_from_scene * face_middle(person);
-    widest = std::max(widest, (std::max(std::abs(at.x()), std::abs(at.y())) + kFaceRoom) / -at.z());
-  }
+  // As long a lens as keeps every face inside, with some air, and tilted up until nobody's cut-off body is seen below.
   const auto air = static_cast<float>(random.between(1.05, 1.25));
-  result.camera.focal_px = 0.5F * static_cast<float>(recipe.size_px) / (widest * air);
+  const Eigen::Vector3f from_camera = result.camera.camera_from_scene.translation();
+  const Eigen::Matrix3f level = result.camera.camera_from_scene.linear();
+  float tilt = 0;
+  for (int pass = 0; pass < 3; ++pass) {
+    const Eigen::Matrix3f turn_up = turn(0, -static_cast<double>(tilt), 0);
+    result.camera.camera_from_scene.linear() = turn_up * level;
+    result.camera.camera_from_scene.translation() = turn_up * from_camera;
+    float widest = 0;
+    float highest_waist = -1e9F;  // as a slope below the axis
+    for (const Person& person : people) {
+      const Eigen::Vector3f at = result.camera.camera_from_scene * face_middle(person);
+      const Eigen::Vector3f waist =
+          result.camera.camera_from_scene * (person.scene_from_head * Eigen::Vector3f(0, kWaistY, 0));
+      widest = std::max(widest, (std::max(std::abs(at.x()), std::abs(at.y())) + kFaceRoom) / -at.z());
+      highest_waist = std::max(highest_waist, waist.y() / -waist.z());
+    }
+    const float half = widest * air;
+    result.camera.focal_px = 0.5F * static_cast<float>(recipe.size_px) / half;
+    if (pass < 2) tilt += std::max(0.0F, std::atan(half) + std::atan(highest_waist));
+  }
+  result.camera_from_level = result.camera.camera_from_scene.linear();
   return result;
 }
 

@@ -111,8 +111,6 @@ void add_scarf(const WardrobeSettings& settings, const Anatomy& a, const SkinFie
       points.push_back(centre + d * (radius[static_cast<std::size_t>(r * kAround + i)] + room));
     }
   }
-  // Rows lead away from the face, so columns have to turn the other way for the normals to point out.
-  for (int r = 0; r < kRows; ++r) std::reverse(points.begin() + r * kAround, points.begin() + (r + 1) * kAround);
   mesh.grid(points, kAround, true);
 
   // Around the neck, down to the shoulders.
@@ -137,7 +135,7 @@ void add_scarf(const WardrobeSettings& settings, const Anatomy& a, const SkinFie
       points.push_back(body_at(a, station, azimuth, room));
     }
   }
-  mesh.grid(points, kAround, true);
+  mesh.grid(points, kAround, true, true);
   mesh.colour([&](const Eigen::Vector3f& p) { return cloth.at(p); });
   out.meshes.push_back(mesh.take(Material::kCloth, Region::kClothes, {cloth.colour, 0.5F, 0.05F, 0.04F}));
 }

@@ -20,15 +20,16 @@ float signed_power(float x, float exponent) { return std::copysign(std::pow(std:
 
 }  // namespace
 
-void MeshBuilder::grid(const std::vector<Eigen::Vector3f>& points, int columns, bool around) {
+void MeshBuilder::grid(const std::vector<Eigen::Vector3f>& points, int columns, bool around, bool turned) {
   const int first = vertex_count();
   const int rows = static_cast<int>(points.size()) / columns;
   points_.insert(points_.end(), points.begin(), points.end());
   for (int r = 0; r + 1 < rows; ++r) {
     for (int c = 0; c + (around ? 0 : 1) < columns; ++c) {
       const int next = (c + 1) % columns;
-      const int a = first + r * columns + c;
-      const int b = first + r * columns + next;
+      int a = first + r * columns + c;
+      int b = first + r * columns + next;
+      if (turned) std::swap(a, b);
       triangles_.emplace_back(a, b, b + columns);
       triangles_.emplace_back(a, b + columns, a + columns);
     }

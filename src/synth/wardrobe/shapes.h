@@ -12,8 +12,8 @@ namespace faceprobe::synth {
 class MeshBuilder {
  public:
   // A grid of points, `columns` to a row, turned so that (next column) x (next row) points outwards. `around`: the last column
-  // joins the first.
-  void grid(const std::vector<Eigen::Vector3f>& points, int columns, bool around);
+  // joins the first. `turned`: (next row) x (next column) points outwards instead, as where rows run down a body.
+  void grid(const std::vector<Eigen::Vector3f>& points, int columns, bool around, bool turned = false);
   // A round bar along a path, closed at its ends (or a ring). One radius per point, or one for all.
   void tube(std::span<const Eigen::Vector3f> path, std::span<const float> radii, int sides, bool ring = false);
   void tube(std::span<const Eigen::Vector3f> path, float radius, int sides, bool ring = false);

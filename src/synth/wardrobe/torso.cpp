@@ -22,23 +22,25 @@ struct Station {
   float side_out, side_down;
   float back_out, back_down;
 };
-constexpr std::array<Station, 8> kBody = {{{0.058F, 0.050F, 0.066F, 0.028F, 0.060F, 0.022F},
+constexpr std::array<Station, 9> kBody = {{{0.058F, 0.050F, 0.066F, 0.028F, 0.060F, 0.022F},
                                            {0.064F, 0.060F, 0.078F, 0.031F, 0.071F, 0.032F},
                                            {0.074F, 0.080F, 0.105F, 0.038F, 0.086F, 0.048F},
                                            {0.086F, 0.105F, 0.145F, 0.053F, 0.101F, 0.074F},
                                            {0.096F, 0.135F, 0.180F, 0.082F, 0.110F, 0.108F},
                                            {0.104F, 0.180F, 0.205F, 0.140F, 0.116F, 0.160F},
                                            {0.112F, 0.240F, 0.220F, 0.220F, 0.120F, 0.240F},
-                                           {0.116F, 0.330F, 0.225F, 0.330F, 0.120F, 0.330F}}};
+                                           {0.116F, 0.330F, 0.225F, 0.330F, 0.120F, 0.330F},
+                                           {0.112F, 0.620F, 0.210F, 0.620F, 0.116F, 0.620F}}};
+constexpr float kLast = 8.0F;  // its last station
 
 struct Frame {
   Eigen::Vector3f neck;  // on the axis, at the chin's height
   float scale;
   float width;  // of shoulders, against average
 
-  // The body's surface; `station` 0 .. 7, azimuth 0 = front, towards +x.
+  // The body's surface; `station` 0 .. kLast, azimuth 0 = front, towards +x.
   Eigen::Vector3f at(float station, float azimuth) const {
-    const float clamped = std::clamp(station, 0.0F, 6.999F);
+    const float clamped = std::clamp(station, 0.0F, kLast - 0.001F);
     const auto k = static_cast<std::size_t>(clamped);
     const float t = clamped - static_cast<float>(k);
     const auto mix = [&](float Station::*member) {
@@ -47,7 +49,7 @@ struct Frame {
     const float c = std::cos(azimuth);
     const float n = std::sin(azimuth);
     const float out = c > 0 ? mix(&Station::front_out) : mix(&Station::back_out);
-    const float side = 1.0F + (width - 1.0F) * clamped / 7.0F;
+    const float side = 1.0F + (width - 1.0F) * std::min(1.0F, clamped / 7.0F);
     const float down =
         n * n * mix(&Station::side_down) + c * c * (c > 0 ? mix(&Station::front_down) : mix(&Station::back_down));
     // Between a rounded box and an ellipse.
@@ -116,8 +118,8 @@ SurfaceMesh make_torso(const WardrobeSettings& settings, const Anatomy& a, const
   MeshBuilder mesh;
   std::vector<Eigen::Vector3f> points;
   // Inner wall first: it goes down behind the collar so that nothing shows between cloth and neck. Rows run downwards, columns
-  // from the front to +x: outwards by the right hand.
-  constexpr int kRows = 34;
+  // from the front to +x.
+  constexpr int kRows = 38;
   std::vector<Eigen::Vector3f> collar;
   for (int r = 0; r < kRows; ++r) {
     for (int i = 0; i < kAround; ++i) {
@@ -133,7 +135,7 @@ SurfaceMesh make_torso(const WardrobeSettings& settings, const Anatomy& a, const
         clearance = 0.001F * s;
       } else {
         const float t = static_cast<float>(r - 3) / static_cast<float>(kRows - 4);
-        p = body.at(begin + (7.0F - begin) * std::pow(t, 1.3F), azimuth);
+        p = body.at(begin + (kLast - begin) * std::pow(t, 1.3F), azimuth);
         p = fold(p, 0.004F * smooth_step(0.05F, 0.4F, t));
       }
       skin.push_out(p, clearance);
@@ -141,7 +143,7 @@ SurfaceMesh make_torso(const WardrobeSettings& settings, const Anatomy& a, const
       points.push_back(p);
     }
   }
-  mesh.grid(points, kAround, true);
+  mesh.grid(points, kAround, true, true);
   mesh.colour([&](const Eigen::Vector3f& p) {
     if (kind == Garment::kJacket) {  // a V of what is worn below
       const float below = (collar[0].y() + 0.01F * s - p.y());
@@ -192,7 +194,7 @@ SurfaceMesh make_torso(const WardrobeSettings& settings, const Anatomy& a, const
           points.push_back(p);
         }
       }
-      mesh.grid(points, kSpan + 1, false);
+      mesh.grid(points, kSpan + 1, false, true);
       break;
     }
   }

@@ -1,6 +1,7 @@
 #include "faceprobe/synth/generate.h"
 
 #include "faceprobe/core/error.h"
+#include "faceprobe/synth/person.h"
 #include "synth/generate/small_world.h"
 
 #include <gtest/gtest.h>
