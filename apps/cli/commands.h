@@ -14,6 +14,8 @@ void add_separate(CLI::App& program, Action& action);
 void add_info(CLI::App& program, Action& action);
 void add_synth(CLI::App& program, Action& action);
 CLI::App* add_unwrap(CLI::App& synth, Action& action);  // under synth
+void add_train(CLI::App& program, Action& action);
+void add_eval(CLI::App& program, Action& action);
 
 // Runs the action; every Error becomes its sentence on stderr and its exit code.
 int run_guarded(const Action& action);

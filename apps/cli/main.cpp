@@ -55,6 +55,10 @@ int main(int argc, char** argv) {
 #ifdef FACEPROBE_HAS_SYNTH
   cli::add_synth(program, action);
 #endif
+#ifdef FACEPROBE_HAS_TRAIN
+  cli::add_train(program, action);
+  cli::add_eval(program, action);
+#endif
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -96,7 +96,8 @@ CLI::App* add_unwrap(CLI::App& synth, Action& action) {
       ->required();
   command->add_option("-o,--output", options->output, "folder for NAME.png, or for one photo a .png")
       ->capture_default_str();
-  command->add_option("--coverage", options->coverage, "folder for pictures of what was read (white) and filled (black)");
+  command->add_option("--coverage", options->coverage,
+                      "folder for pictures of what was read (white) and filled (black)");
   command->add_option("--size", options->unwrap.size_px, "width and height of the texture, px")->capture_default_str();
   command->add_option("--max-yaw", options->unwrap.max_yaw_deg, "faces turned further are refused, degrees")
       ->capture_default_str();

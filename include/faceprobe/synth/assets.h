@@ -11,9 +11,9 @@
 namespace faceprobe::synth {
 
 struct Assets {
-  std::vector<HeadModel> heads;    // at least one
-  std::vector<SkinTexture> skins;  // may be empty: plain skin then
-  std::vector<MapLight> maps;      // at least one
+  std::vector<HeadModel> heads;               // at least one
+  std::vector<SkinTexture> skins;             // may be empty: plain skin then
+  std::vector<MapLight> maps;                 // at least one
   std::optional<SkinStatistics> reflectance;  // measured; else the estimate of core/skin_reflectance.h
 };
 

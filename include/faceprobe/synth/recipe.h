@@ -23,8 +23,9 @@ struct Recipe {
   std::uint64_t seed = 1;
   Mode mode = Mode::kDefault;
   Split split = Split::kAll;  // kTrain leaves out every sixth texture, kDev uses only those; identities differ too
-  bool multi_face = false;  // two to four people to a picture, lit by lamps at known places, for triangulation; from 192 px on
-  int views_per_person = 4;  // of each person, or of each group
+  bool multi_face =
+      false;  // two to four people to a picture, lit by lamps at known places, for triangulation; from 192 px on
+  int views_per_person = 4;     // of each person, or of each group
   int samples_per_view = 16;    // maps, with their turns
   int skins_per_person = 4;     // textures and tones that take turns over a view's samples
   int samples_per_side = 3;     // primary rays per pixel and side

@@ -44,7 +44,7 @@ struct Sample {
   Image shading;       // diffuse = albedo * shading on the person; zero on the background
   EnvMap environment;  // distant light, camera frame, same scale
   std::vector<NearLight> lamps;  // of a group's room: camera frame, radiance on the same scale
-  int map = 0;         // number of the map, and its turn about +y, radians
+  int map = 0;                   // number of the map, and its turn about +y, radians
   float map_yaw = 0;
   std::string settings_json;  // skin, camera and wardrobe as drawn, one JSON object
 };

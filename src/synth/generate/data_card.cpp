@@ -49,9 +49,10 @@ std::string recipe_of(const Assets& assets, const Recipe& recipe) {
 std::string data_card(const Assets& assets, const Recipe& recipe) {
   std::ostringstream card;
   card << "# Synthetic faces\n\n"
-       << recipe.count << " samples of " << recipe.person_count() << (recipe.multi_face ? " groups" : " people") << " at " << recipe.size_px << " px, "
-       << recipe.views_per_person << (recipe.multi_face ? " views a group, " : " views a person, ")
-        << recipe.samples_per_view << " lights a view.\n\n"
+       << recipe.count << " samples of " << recipe.person_count() << (recipe.multi_face ? " groups" : " people")
+       << " at " << recipe.size_px << " px, " << recipe.views_per_person
+       << (recipe.multi_face ? " views a group, " : " views a person, ") << recipe.samples_per_view
+       << " lights a view.\n\n"
        << "Made by `faceprobe synth`; no photograph of a person is among the pictures, but skin textures may come from "
           "some.\n\n"
        << "| | |\n|---|---|\n"

@@ -182,8 +182,8 @@ std::vector<ViewSamples> generate_person(const Assets& assets, const Recipe& rec
         sample.diffuse = std::move(layers.diffuse);
         sample.albedo = std::move(layers.albedo);
         sample.shading = std::move(layers.shading);
-        sample.environment =
-            map_in_frame(map, camera_from_map[k], distant_gain, 2 * recipe.environment_height, recipe.environment_height);
+        sample.environment = map_in_frame(map, camera_from_map[k], distant_gain, 2 * recipe.environment_height,
+                                          recipe.environment_height);
         for (NearLight lamp : lights[k].near) {
           lamp.position = pose * lamp.position;
           lamp.radiance = lamp.radiance.cwiseProduct(gain);

@@ -11,9 +11,10 @@ namespace {
 enum Purpose : std::uint64_t { kPlaces = 21, kCamera };
 
 constexpr int kMostPeople = 4;
-constexpr double kShoulders = 0.52;    // metres between the middles of neighbours at least: they do not cut through each other
-constexpr float kFaceRoom = 0.16F;     // metres around an origin between the eyes that belong to the face
-constexpr float kWaistY = -0.55F;      // below the eyes, where bodies are about to end
+constexpr double kShoulders =
+    0.52;  // metres between the middles of neighbours at least: they do not cut through each other
+constexpr float kFaceRoom = 0.16F;      // metres around an origin between the eyes that belong to the face
+constexpr float kWaistY = -0.55F;       // below the eyes, where bodies are about to end
 constexpr float kHeadMiddleY = -0.04F;  // from between the eyes down to the middle of the face
 
 Random scene_random(const Recipe& recipe, int number) {
@@ -40,7 +41,9 @@ void place(const Eigen::Isometry3f& pose, Figure& figure) {
   }
 }
 
-Eigen::Vector3f face_middle(const Person& person) { return person.scene_from_head * Eigen::Vector3f(0, kHeadMiddleY, 0); }
+Eigen::Vector3f face_middle(const Person& person) {
+  return person.scene_from_head * Eigen::Vector3f(0, kHeadMiddleY, 0);
+}
 
 }  // namespace
 
@@ -80,8 +83,9 @@ View draw_scene_view(std::span<const Person> people, const Recipe& recipe, int n
 
   // The camera walks around the group and aims at it.
   View result;
-  const Eigen::Vector3f stand = middle + turn(random.normal(0, radians(9)), random.normal(0, radians(4)), 0) *
-                                             Eigen::Vector3f(0, 0, -middle.z() * static_cast<float>(random.between(0.9, 1.1)));
+  const Eigen::Vector3f stand =
+      middle + turn(random.normal(0, radians(9)), random.normal(0, radians(4)), 0) *
+                   Eigen::Vector3f(0, 0, -middle.z() * static_cast<float>(random.between(0.9, 1.1)));
   const Eigen::Vector3f back = (stand - middle).normalized();
   Eigen::Matrix3f scene_from_camera;
   scene_from_camera.col(0) = Eigen::Vector3f::UnitY().cross(back).normalized();

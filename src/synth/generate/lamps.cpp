@@ -44,7 +44,8 @@ bool serves(const NearLight& lamp, std::span<const Person> people) {
 
 std::vector<NearLight> draw_lamps(std::span<const Person> people, const PinholeCamera& camera, Random& random) {
   Eigen::Vector3f middle = Eigen::Vector3f::Zero();
-  for (const Person& person : people) middle += person.scene_from_head.translation() / static_cast<float>(people.size());
+  for (const Person& person : people)
+    middle += person.scene_from_head.translation() / static_cast<float>(people.size());
   const int wanted = 1 + random.below(3);
   std::vector<NearLight> lamps;
   std::vector<float> shares;

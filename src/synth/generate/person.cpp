@@ -87,8 +87,9 @@ Person draw_person(const Assets& assets, const Recipe& recipe, int number) {
   Random skins = root.split(kSkins);
   for (int i = 0; i < recipe.skins_per_person; ++i) {
     const int count = static_cast<int>(textures.size());
-    SkinSettings skin = recipe.mode == Mode::kPaper ? draw_paper_skin(count, skins)
-                                                     : draw_skin(count, skins, assets.reflectance ? &*assets.reflectance : nullptr);
+    SkinSettings skin = recipe.mode == Mode::kPaper
+                            ? draw_paper_skin(count, skins)
+                            : draw_skin(count, skins, assets.reflectance ? &*assets.reflectance : nullptr);
     skin.texture = skin.texture >= 0 && skin.texture < count ? textures[static_cast<std::size_t>(skin.texture)] : -1;
     person.skins.push_back(skin);
   }

@@ -77,9 +77,9 @@ void draw_measured_reflectance(const SkinStatistics& statistics, Random& random,
     if (!value.measured) continue;
     skin.roughness[i] = std::clamp(
         value.roughness + value.roughness_deviation * static_cast<float>(kShared * (rough + own_rough)), 0.1F, 0.7F);
-    skin.specular_albedo[i] =
-        std::clamp(value.specular_albedo + value.specular_albedo_deviation * static_cast<float>(kShared * (shiny + own_shiny)),
-                   0.01F, 1.0F);
+    skin.specular_albedo[i] = std::clamp(
+        value.specular_albedo + value.specular_albedo_deviation * static_cast<float>(kShared * (shiny + own_shiny)),
+        0.01F, 1.0F);
   }
 }
 

@@ -23,8 +23,8 @@ class KnownSky {
   // kCertain | kLit, kCertain | kDark, or 0 when a ray has to tell.
   std::uint8_t at(int row) const {
     if (cells_.empty()) return 0;
-    const std::uint8_t* share =
-        transport_.visibility.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(transport_.diffuse.cols());
+    const std::uint8_t* share = transport_.visibility.data() +
+                                static_cast<std::size_t>(row) * static_cast<std::size_t>(transport_.diffuse.cols());
     const std::uint8_t first = share[cells_.front()];
     if (first != 0 && first != 255) return 0;
     for (const int cell : cells_) {

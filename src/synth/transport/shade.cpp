@@ -62,7 +62,7 @@ class SmallLights {
   SmallLights(const Scene& scene, const SceneTransport& transport, const ViewTransport& view,
               const ShadeOptions& options)
       : scene_(scene), transport_(transport), grid_(transport.nside), vertices_(vertex_points(scene, transport)),
-         surfaces_(fragment_points(scene, transport, view)),
+        surfaces_(fragment_points(scene, transport, view)),
         hairs_(hair_points(scene, view.fragments, view.surface, view.camera_position)), options_(options) {}
 
   void add(std::span<const LightSample> samples, std::span<FragmentLight> out) {
@@ -96,8 +96,7 @@ class SmallLights {
     const int first = chunk * kChunk;
     const int count = std::min(kChunk, vertices_.count() - first);
     for (std::size_t k = 0; k < sample.distant.size(); ++k) {
-      add_distant(scene_, vertices_, first, count, sample.distant[k], sky_[s][k], out.vertex_shading,
-                  lit_[s][k].data());
+      add_distant(scene_, vertices_, first, count, sample.distant[k], sky_[s][k], out.vertex_shading, lit_[s][k].data());
     }
     for (const NearLight& light : sample.near) add_near(scene_, vertices_, first, count, light, out.vertex_shading);
   }

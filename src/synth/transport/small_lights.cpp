@@ -162,8 +162,8 @@ void add_distant(const Scene& scene, const SurfacePoints& vertices, int first, i
   const Eigen::ArrayXf n_l = cosines(vertices.normal, first, beam);
   std::uint8_t* seen = lit + first;  // vertices are in the order of their rows
   for (int i = 0; i < count; ++i) seen[i] = n_l(i) > 0 ? sky.at(first + i) : std::uint8_t{kDark};
-  const Eigen::ArrayXf traced =
-      trace(scene, vertices.origin, first, beam, nullptr, [&](int i) { return n_l(i) > 0 && (seen[i] & kCertain) == 0; });
+  const Eigen::ArrayXf traced = trace(scene, vertices.origin, first, beam, nullptr,
+                                      [&](int i) { return n_l(i) > 0 && (seen[i] & kCertain) == 0; });
   Eigen::ArrayXf share(count);
   for (int i = 0; i < count; ++i) {
     if (traced(i) > 0) seen[i] |= kLit;

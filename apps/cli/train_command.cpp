@@ -1,0 +1,94 @@
+#include "commands.h"
+#include "faceprobe/core/error.h"
+#include "faceprobe/io/data_files.h"
+#include "faceprobe/io/picture_file.h"
+#include "faceprobe/train/train.h"
+
+#include <spdlog/spdlog.h>
+
+#include <atomic>
+#include <csignal>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+namespace faceprobe::cli {
+
+namespace {
+
+struct Options {
+  std::string net = "highlight";
+  std::string config;
+  std::string device = "auto";
+  bool json = false;
+  train::TrainRun run;
+};
+
+// Set by an interrupt: the run is saved and ends.
+std::atomic<bool> interrupted = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+std::string read_text(const std::string& path) {
+  constexpr std::int64_t kMaxBytes = 1 << 20;
+  const std::vector<std::byte> bytes = io::read_file(path, kMaxBytes);
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+void log_row(const train::TrainProgress& progress) {
+  const train::TrainRow& row = progress.row;
+  std::string errors;
+  if (row.validated) {
+    errors =
+        fmt::format(", error {:.2f} on skin (black {:.2f}), {:.2f} on the whole (black {:.2f})", row.validation.skin,
+                    row.validation.black_skin, row.validation.whole, row.validation.black_whole);
+  }
+  spdlog::info("step {} of {}: loss {:.5f}, {:.1f} samples a second, {:.0f} min left{}", row.step, progress.steps,
+               row.loss, row.samples_per_second, progress.seconds_left / 60, errors);
+}
+
+int run(Options options) {
+  if (!options.config.empty()) options.run.config = train::train_config_from_json(read_text(options.config));
+  options.run.device = net::device_from_name(options.device);
+  std::signal(SIGINT, [](int) { interrupted = true; });
+  std::signal(SIGTERM, [](int) { interrupted = true; });
+  train::TrainHooks hooks;
+  hooks.progress = log_row;
+  hooks.stop = [] { return interrupted.load(); };
+  hooks.write_picture = [](const std::filesystem::path& path, const ByteImage& picture) {
+    io::write_picture(path, picture);
+  };
+  const train::TrainReport report = train::train_highlight(options.run, hooks);
+  if (options.json) {
+    const nlohmann::ordered_json json = {{"finished", report.finished},
+                                         {"steps", report.rows.empty() ? 0 : report.rows.back().step},
+                                         {"samples_per_second", report.samples_per_second},
+                                         {"weights", report.weights.string()}};
+    fmt::print("{}\n", json.dump());
+  }
+  if (!report.finished) spdlog::warn("stopped; the same command goes on from the last checkpoint");
+  return 0;
+}
+
+}  // namespace
+
+void add_train(CLI::App& program, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand("train", "trains a network on synthetic faces");
+  command->add_option("NET", options->net, "which one")->required()->check(CLI::IsMember({"highlight"}));
+  command->add_option("--config", options->config, "training config, JSON; without it the defaults")
+      ->check(CLI::ExistingFile);
+  command->add_option("--data", options->run.data, "folder that `faceprobe synth` wrote")->required();
+  command->add_option("--validation", options->run.validation_data, "such a folder of other people, to measure on");
+  command->add_option("--start", options->run.start, "weights to begin with");
+  command->add_option("-o,--output", options->run.folder, "folder for checkpoint, log, pictures and weights")->required();
+  command->add_option("--device", options->device, "auto, cpu, cuda or cuda:N")->capture_default_str();
+  command->add_option("--threads", options->run.threads, "0 = all processors")->capture_default_str();
+  command->add_flag("--repeat-batch", options->run.repeat_batch,
+                    "train on one batch again and again and save nothing: the speed without data");
+  command->add_flag("--json", options->json, "one JSON object on stdout at the end");
+  command->footer(
+      "An interrupted run goes on bit for bit when the same command is given again.\n\nExample:\n"
+      "  faceprobe train highlight --config models/highlight.json --data faces/train --validation faces/dev -o run");
+  command->callback([options, &action] { action = [options] { return run(*options); }; });
+}
+
+}  // namespace faceprobe::cli

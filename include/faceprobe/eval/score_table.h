@@ -1,0 +1,76 @@
+#pragma once
+// The figures of an evaluation: one row for each method and picture, from which come the means, intervals and tables of a
+// report. It computes no metric (see eval/image_metrics.h) and writes no file: the texts are strings.
+//
+//   eval::ScoreTable table;
+//   table.add({.method = "yang", .sample = "0001", .groups = {{"skin", "tan"}}, .metrics = {{"rmse", 7.8}, {"ssim", .91}}});
+//   ...
+//   std::cout << table.markdown("rmse") << table.markdown_by_group("rmse", "skin");
+//   const eval::Summary yang = table.summary("rmse", {.method = "yang", .group = "skin", .label = "tan"});
+
+#include "faceprobe/eval/statistics.h"
+
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace faceprobe::eval {
+
+struct ScoreRow {
+  std::string method;
+  std::string sample;
+  std::map<std::string, std::string> groups = {};  // kind of group -> this sample's label: {"skin", "tan"}
+  std::map<std::string, double> metrics = {};      // name -> value; NaN where the method failed
+};
+
+// Which rows to look at. An empty method or group stands for all.
+struct Selection {
+  std::string method = {};
+  std::string group = {};
+  std::string label = {};  // of `group`
+};
+
+class ScoreTable {
+ public:
+  // `bootstrap` is for every interval of the table.
+  explicit ScoreTable(const Bootstrap& bootstrap = {}) : bootstrap_(bootstrap) {}
+
+  // Throws std::invalid_argument when the method or the sample has no name, the pair is there already, or a group and a
+  // metric would share a column's name ("method" and "sample" are taken).
+  void add(ScoreRow row);
+  // The order in which tables show the labels of a group; labels it does not name follow by name.
+  void order_labels(const std::string& group, std::vector<std::string> labels);
+
+  const std::vector<ScoreRow>& rows() const { return rows_; }
+  std::vector<std::string> methods() const;  // in the order they came
+  const std::set<std::string>& groups() const { return groups_; }
+  const std::set<std::string>& metrics() const { return metrics_; }
+  std::vector<std::string> labels(const std::string& group) const;
+
+  // One value for each selected row, in order; NaN where the row has none of this metric.
+  std::vector<double> values(const std::string& metric, const Selection& selection = {}) const;
+  Summary summary(const std::string& metric, const Selection& selection = {}) const;
+  Histogram histogram(const std::string& metric, const Selection& selection, double low, double high, int bins) const;
+
+  // One line a row: method, sample, groups, metrics; RFC 4180; missing values are empty, numbers read back exactly.
+  std::string csv() const;
+  // {"bootstrap": {...}, "rows": [...], "summaries": [...]}: a summary for each metric and method, over all rows and for
+  // each label; missing values are null. Bytes that are not UTF-8 are replaced.
+  std::string json() const;
+  // Tables for a report: one line a method. Missing values are told beside the count.
+  std::string markdown(const std::string& metric, int decimals = 3) const;
+  // Mean and interval of each label, one column a label.
+  std::string markdown_by_group(const std::string& metric, const std::string& group, int decimals = 3) const;
+
+ private:
+  Bootstrap bootstrap_;
+  std::vector<ScoreRow> rows_;
+  std::set<std::pair<std::string, std::string>> known_;  // method, sample
+  std::set<std::string> groups_;
+  std::set<std::string> metrics_;
+  std::map<std::string, std::vector<std::string>> label_order_;
+};
+
+}  // namespace faceprobe::eval

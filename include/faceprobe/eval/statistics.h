@@ -1,0 +1,51 @@
+#pragma once
+// A list of figures, one a picture, in a few numbers. Values that are not finite are set aside and counted as missing: a
+// method that fails on a picture must not look better for it.
+//
+// The interval takes the values as independent. Several pictures of one person are not: it is too narrow for them; average
+// over the person first.
+//
+//   const eval::Summary s = eval::summarize(errors);
+//   std::cout << s.mean << " [" << s.mean_low << ", " << s.mean_high << "], median " << s.median;
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace faceprobe::eval {
+
+struct Bootstrap {
+  std::uint64_t seed = 1;
+  int resamples = 2000;  // >= 1
+};
+
+// In the unit of the values. All numbers are NaN where there are no values, the interval where there are fewer than two.
+struct Summary {
+  std::size_t count = 0;    // finite values
+  std::size_t missing = 0;  // the others
+  double mean = 0;
+  double median = 0;
+  double p90 = 0;       // nine of ten values are below it: the bad end of an error, the good end of a similarity
+  double mean_low = 0;  // 95 % interval of the mean: percentile bootstrap (Efron & Tibshirani 1993, chapter 13)
+  double mean_high = 0;
+};
+
+// The order of the values does not matter. Throws std::invalid_argument when bootstrap.resamples < 1.
+Summary summarize(std::span<const double> values, const Bootstrap& bootstrap = {});
+
+// p in [0, 1]; linear between the two nearest ranks; NaN for an empty list. `sorted` ascends.
+double quantile_of_sorted(std::span<const double> sorted, double p);
+
+// Bins of one width over [low, high]; a value on a border belongs to the bin above it, `high` itself to the last.
+struct Histogram {
+  double low = 0;
+  double high = 0;
+  std::vector<std::size_t> counts;
+  std::size_t below = 0;  // values under `low`
+  std::size_t above = 0;  // values over `high`
+};
+// NaN is left out. Throws std::invalid_argument unless low < high, both finite, and bins >= 1.
+Histogram histogram(std::span<const double> values, double low, double high, int bins);
+
+}  // namespace faceprobe::eval

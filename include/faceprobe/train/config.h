@@ -1,0 +1,58 @@
+#pragma once
+// Everything that a training run depends on apart from its data, read from a JSON file that is kept with the weights. The same config,
+// data and device give the same weights; a run that was cut off goes on bit for bit.
+//
+//   {"architecture": "unet", "batch": 16, "steps": 20000, "learning_rate": 2e-3}     // what is not named keeps its default
+//
+//   const train::TrainConfig config = train::train_config_from_json(text);
+
+#include <cstdint>
+#include <string>
+
+namespace faceprobe::train {
+
+// Changes of the picture that the answer follows or ignores. Noise, blur, JPEG and tone curves are drawn when samples are rendered.
+struct AugmentConfig {
+  bool mirror = true;                // left and right change places in half of the samples
+  double colour_deviation = 0.08;    // of the logarithm of each channel's gain: the light's colour
+  double exposure_deviation = 0.25;  // of the logarithm of the gain of all channels; what passes white is clipped again
+  double grey_share = 0.05;          // of samples without colour
+  double no_mask_share = 0.15;       // of samples that are given no face mask
+  double occluder_share = 0.1;       // of samples that something plain is put before
+};
+
+struct LossConfig {
+  double encoded = 0.5;     // weight of the error of square roots, which counts dark skin as much as bright
+  double gradient = 0.25;   // weight of the error of differences between neighbours
+  double elsewhere = 0.25;  // weight of a pixel that is not the face's skin, which has 1
+};
+
+struct TrainConfig {
+  std::string architecture =
+      "unet";  // "unet", or "mscr": the paper's, with its plain L2 loss and no augmentation but the mirror
+  std::string network = "{}";  // the architecture's own options, JSON
+  int batch = 16;              // samples to a step
+  std::int64_t steps = 20000;
+  double learning_rate = 1e-3;  // AdamW's, at its peak
+  double weight_decay = 0.01;
+  std::int64_t warm_up = 300;  // steps until the peak; from there a half cosine down to final_share of it
+  double final_share = 0.01;
+  double average_decay = 0.998;   // of the running average of the weights, which is what is kept
+  double largest_gradient = 1.0;  // norm over all weights
+  std::uint64_t seed = 1;
+  std::int64_t validate_every = 1000;
+  int validation_samples = 128;
+  std::int64_t save_every = 250;
+  AugmentConfig augment;
+  LossConfig loss;
+
+  // Empty when usable, else a sentence that says which value is wrong.
+  std::string validate() const;
+};
+
+// Throws Error(kUsage): not JSON, a key that does not exist (the sentence names it and those that do), a value of another type, a config
+// that does not validate.
+TrainConfig train_config_from_json(const std::string& text);
+std::string to_json(const TrainConfig& config);
+
+}  // namespace faceprobe::train

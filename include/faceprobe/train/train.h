@@ -1,0 +1,82 @@
+#pragma once
+// Trains the highlight network on a folder of synthetic faces (synth/shard.h): paper Section 3.1, with the loss, network and augmentation
+// of the config. The run's folder holds everything: the config, a checkpoint from which the run goes on bit for bit, one CSV, pictures,
+// and the weights as they are at the last save.
+//
+//   train::TrainRun run;
+//   run.config = train::train_config_from_json(text);
+//   run.data = "faces/train";  run.validation_data = "faces/dev";  run.folder = "runs/highlight";
+//   const train::TrainReport report = train::train_highlight(run, {});
+//
+// Not for the other networks, and not for real photos: see finetune.h.
+
+#include "faceprobe/core/image.h"
+#include "faceprobe/net/device.h"
+#include "faceprobe/train/config.h"
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace faceprobe::train {
+
+struct TrainRun {
+  TrainConfig config;
+  std::filesystem::path data;
+  std::filesystem::path validation_data;  // empty: no validation
+  std::filesystem::path folder;           // made; a run that is there goes on if its config and data are the same
+  std::filesystem::path start;            // weights to begin with; empty: drawn from the seed
+  net::Device device;
+  int threads = 0;            // of the processor; 0 = all
+  bool repeat_batch = false;  // train on the first batch only: the speed that data must not hold up. Saves nothing
+};
+
+// Errors of the highlight layer on the 0-255 scale, means over pictures of the root mean square (paper, Table 1).
+struct Validation {
+  double skin = 0;        // on the face's skin
+  double whole = 0;       // on the whole picture
+  double black_skin = 0;  // what an empty layer would have
+  double black_whole = 0;
+};
+
+struct TrainRow {
+  std::int64_t step = 0;  // steps done
+  double loss = 0;        // mean since the last row
+  double learning_rate = 0;
+  double samples_per_second = 0;
+  bool validated = false;
+  Validation validation;
+};
+
+struct TrainProgress {
+  TrainRow row;
+  std::int64_t steps = 0;
+  double seconds_left = 0;
+};
+
+struct TrainReport {
+  std::vector<TrainRow> rows;  // of the whole run, resumed parts included
+  bool finished = false;       // false: it was stopped
+  std::filesystem::path weights;
+  double samples_per_second = 0;  // over this part of the run, validation apart
+};
+
+struct TrainHooks {
+  std::function<void(const TrainProgress&)> progress;  // at each row
+  std::function<bool()> stop;                          // asked at each step; true saves and ends
+  // Writes a picture into the run's folder; without it none are made.
+  std::function<void(const std::filesystem::path&, const ByteImage&)> write_picture;
+};
+
+// Throws Error: data that cannot be read (kInput), a folder of another run or that cannot be written (kOutput), a device that is not there
+// (kDevice), a config that does not validate (kUsage), a loss that is no number any more (kUnexpected; the checkpoint before it is kept).
+TrainReport train_highlight(const TrainRun& run, const TrainHooks& hooks);
+
+// "step,loss,..." with one line a row.
+std::string to_csv(const std::vector<TrainRow>& rows);
+
+// The loss over the steps, both axes logarithmic below 100 steps apart, and the validation errors.
+ByteImage draw_curves(const std::vector<TrainRow>& rows);
+
+}  // namespace faceprobe::train

@@ -1,0 +1,150 @@
+// The table as text: CSV for other programs, JSON with the summaries, Markdown for people.
+#include "faceprobe/eval/score_table.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace faceprobe::eval {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// The shortest digits that read back as the same number, in any locale.
+std::string exact(double value) {
+  if (!std::isfinite(value)) return {};
+  std::array<char, 32> text;
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+}
+
+std::string rounded(double value, int decimals) {
+  if (!std::isfinite(value)) return "-";
+  std::array<char, 512> text;  // the largest double has 309 digits
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed, decimals);
+  return end.ec == std::errc() ? std::string(text.data(), end.ptr) : exact(value);
+}
+
+std::string csv_cell(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + '"';
+}
+
+// A bar would end the cell, a line break the row.
+std::string markdown_cell(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '|') out += '\\';
+    out += c == '\n' || c == '\r' ? ' ' : c;
+  }
+  return out;
+}
+
+std::string markdown_head(const std::vector<std::string>& titles) {
+  std::string head = "|";
+  std::string rule = "|";
+  for (const std::string& title : titles) {
+    head += ' ' + markdown_cell(title) + " |";
+    rule += rule == "|" ? "---|" : "---:|";  // names to the left, numbers to the right
+  }
+  return head + '\n' + rule + '\n';
+}
+
+std::string interval(const Summary& s, int decimals) {
+  return '[' + rounded(s.mean_low, decimals) + ", " + rounded(s.mean_high, decimals) + ']';
+}
+
+std::string count(const Summary& s) {
+  const std::string counted = std::to_string(s.count);
+  return s.missing == 0 ? counted : counted + " (" + std::to_string(s.missing) + " missing)";
+}
+
+Json row_json(const ScoreRow& row) {
+  return {{"method", row.method}, {"sample", row.sample}, {"groups", Json(row.groups)}, {"metrics", Json(row.metrics)}};
+}
+
+// Numbers that are not finite become null as nlohmann::json writes them.
+Json summary_json(const std::string& metric, const Selection& selection, const Summary& s) {
+  Json out = {{"metric", metric}, {"method", selection.method}};
+  if (!selection.group.empty()) out.update({{"group", selection.group}, {"label", selection.label}});
+  out.update({{"count", s.count},
+              {"missing", s.missing},
+              {"mean", s.mean},
+              {"mean_95", Json::array({s.mean_low, s.mean_high})},
+              {"median", s.median},
+              {"p90", s.p90}});
+  return out;
+}
+
+}  // namespace
+
+std::string ScoreTable::csv() const {
+  std::string out = "method,sample";
+  for (const std::string& group : groups_) out += ',' + csv_cell(group);
+  for (const std::string& metric : metrics_) out += ',' + csv_cell(metric);
+  out += "\r\n";
+  for (const ScoreRow& row : rows_) {
+    out += csv_cell(row.method) + ',' + csv_cell(row.sample);
+    for (const std::string& group : groups_) {
+      const auto found = row.groups.find(group);
+      out += ',' + (found != row.groups.end() ? csv_cell(found->second) : std::string());
+    }
+    for (const std::string& metric : metrics_) {
+      const auto found = row.metrics.find(metric);
+      out += ',' + (found != row.metrics.end() ? exact(found->second) : std::string());
+    }
+    out += "\r\n";
+  }
+  return out;
+}
+
+std::string ScoreTable::json() const {
+  Json rows = Json::array();
+  for (const ScoreRow& row : rows_) rows.push_back(row_json(row));
+  Json summaries = Json::array();
+  const auto add_summary = [&](const std::string& metric, const Selection& selection) {
+    summaries.push_back(summary_json(metric, selection, summary(metric, selection)));
+  };
+  for (const std::string& metric : metrics_) {
+    for (const std::string& method : methods()) {
+      add_summary(metric, {.method = method});
+      for (const std::string& group : groups_) {
+        for (const std::string& label : labels(group)) add_summary(metric, {method, group, label});
+      }
+    }
+  }
+  const Json out = {{"bootstrap", {{"seed", bootstrap_.seed}, {"resamples", bootstrap_.resamples}}},
+                    {"rows", rows},
+                    {"summaries", summaries}};
+  return out.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+std::string ScoreTable::markdown(const std::string& metric, int decimals) const {
+  std::string out = markdown_head({metric, "n", "mean", "95 % of the mean", "median", "p90"});
+  for (const std::string& method : methods()) {
+    const Summary s = summary(metric, {.method = method});
+    out += "| " + markdown_cell(method) + " | " + count(s) + " | " + rounded(s.mean, decimals) + " | " +
+           interval(s, decimals) + " | " + rounded(s.median, decimals) + " | " + rounded(s.p90, decimals) + " |\n";
+  }
+  return out;
+}
+
+std::string ScoreTable::markdown_by_group(const std::string& metric, const std::string& group, int decimals) const {
+  const std::vector<std::string> columns = labels(group);
+  std::vector<std::string> titles = {metric};
+  titles.insert(titles.end(), columns.begin(), columns.end());
+  std::string out = markdown_head(titles);
+  for (const std::string& method : methods()) {
+    out += "| " + markdown_cell(method) + " |";
+    for (const std::string& label : columns) {
+      const Summary s = summary(metric, {method, group, label});
+      out += ' ' + rounded(s.mean, decimals) + ' ' + interval(s, decimals) + ", n = " + count(s) + " |";
+    }
+    out += '\n';
+  }
+  return out;
+}
+
+}  // namespace faceprobe::eval

@@ -1,0 +1,50 @@
+#include "net/separator.h"
+
+#include "faceprobe/core/error.h"
+#include "io/safetensors_header.h"
+#include "net/highlight_head.h"
+#include "net/mscr.h"
+#include "net/unet.h"
+#include "net/weights.h"
+
+namespace faceprobe::net {
+namespace {
+
+void prepare(torch::nn::Module& module, const io::TensorFile& file, const torch::Device& device) {
+  load_weights(module, file);
+  module.to(device);
+  module.eval();
+}
+
+Separator unet_separator(const ModelInfo& info, const io::TensorFile& file, const torch::Device& device) {
+  const UNetOptions options = unet_options_from_json(info.options_json);
+  if (options.in_channels != kInputChannels || options.out_channels != kRawChannels) {
+    throw Error(ExitCode::kModel, "The weights are of a network with " + std::to_string(options.in_channels) +
+                                      " channels in and " + std::to_string(options.out_channels) +
+                                      " out; separating highlights takes 7 and 4. Use weights made for it.");
+  }
+  UNet net(options);
+  prepare(*net, file, device);
+  return {net->multiple(), [net](const auto& linear, const auto& clip, const auto& mask) mutable {
+            return highlight_from_raw(net(prepare_input(linear, clip, mask)), linear);
+          }};
+}
+
+Separator mscr_separator(const ModelInfo& info, const io::TensorFile& file, const torch::Device& device) {
+  Mscr net(mscr_options_from_json(info.options_json));
+  prepare(*net, file, device);
+  return {kMscrMultiple, [net](const auto& linear, const auto&, const auto&) mutable {
+            return torch::minimum(net(mscr_input(linear, net->options())).clamp_min(0), linear);
+          }};
+}
+
+}  // namespace
+
+Separator make_separator(const ModelInfo& info, const io::TensorFile& file, const torch::Device& device) {
+  if (info.architecture == kUNetArchitecture) return unet_separator(info, file, device);
+  if (info.architecture == kMscrArchitecture) return mscr_separator(info, file, device);
+  throw Error(ExitCode::kModel, "The weights are of a network " + io::quoted(info.architecture) +
+                                    "; this version runs unet and mscr. Use weights made for it.");
+}
+
+}  // namespace faceprobe::net

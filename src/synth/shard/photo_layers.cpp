@@ -1,0 +1,109 @@
+#include "faceprobe/synth/photo_layers.h"
+
+#include "faceprobe/core/color.h"
+#include "faceprobe/core/region.h"
+
+#include <algorithm>
+#include <array>
+
+namespace faceprobe::synth {
+namespace {
+
+using Point = Eigen::Vector2f;
+
+float turn(const Point& a, const Point& b, const Point& c) {
+  return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+}
+
+// Andrew 1979, monotone chain.
+std::vector<Point> convex_hull(std::vector<Point> points) {
+  std::sort(points.begin(), points.end(),
+            [](const Point& a, const Point& b) { return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y()); });
+  std::vector<Point> hull;
+  for (int side = 0; side < 2; ++side) {
+    const std::size_t start = hull.size();
+    for (const Point& p : points) {
+      while (hull.size() >= start + 2 && turn(hull[hull.size() - 2], hull.back(), p) <= 0) hull.pop_back();
+      hull.push_back(p);
+    }
+    hull.pop_back();
+    std::reverse(points.begin(), points.end());
+  }
+  return hull;
+}
+
+void fill_convex(const std::vector<Point>& hull, ByteImage& mask) {
+  for (int y = 0; y < mask.height(); ++y) {
+    const float row = static_cast<float>(y) + 0.5F;
+    float left = 1e9F;
+    float right = -1e9F;
+    for (std::size_t i = 0; i < hull.size(); ++i) {
+      const Point& a = hull[i];
+      const Point& b = hull[(i + 1) % hull.size()];
+      if ((a.y() <= row) == (b.y() <= row)) continue;
+      const float x = a.x() + (row - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
+      left = std::min(left, x);
+      right = std::max(right, x);
+    }
+    for (int x = 0; x < mask.width(); ++x) {
+      const float column = static_cast<float>(x) + 0.5F;
+      if (column >= left && column <= right) mask(x, y) = 1;
+    }
+  }
+}
+
+}  // namespace
+
+PhotoLayers photo_layers(const Sample& sample) {
+  static const std::array<float, 256> kDecoded = [] {
+    std::array<float, 256> table{};
+    for (std::size_t i = 0; i < table.size(); ++i) table[i] = linear_from_srgb(static_cast<float>(i) / 255.0F);
+    return table;
+  }();
+  const int width = sample.photo.width();
+  const int height = sample.photo.height();
+  PhotoLayers layers{Image(width, height, 3), Image(width, height, 3)};
+  for (std::size_t pixel = 0; pixel < sample.photo.pixel_count(); ++pixel) {
+    const unsigned clip = sample.clip.data()[pixel];
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::size_t at = 3 * pixel + c;
+      const float light = kDecoded[sample.photo.data()[at]];
+      const float highlight = std::max(0.0F, sample.highlight.data()[at]);
+      const float diffuse = std::max(0.0F, sample.diffuse.data()[at]);
+      const float whole = highlight + diffuse;
+      const bool clipped = (clip >> c & 1U) != 0;
+      const float own = clipped ? light - std::min(diffuse, light) : whole > 0 ? light * highlight / whole : 0.0F;
+      layers.linear.data()[at] = light;
+      layers.highlight.data()[at] = own;
+    }
+  }
+  return layers;
+}
+
+ByteImage face_mask(const ViewLayers& view, float scale) {
+  ByteImage mask(view.region.width(), view.region.height(), 1);
+  for (const FaceMarks& face : view.faces) {
+    if (face.dense_landmarks_px.rows() < 3) return skin_mask(view);
+    const Eigen::RowVector2f middle = face.dense_landmarks_px.colwise().mean();
+    std::vector<Point> points;
+    for (const auto& row : face.dense_landmarks_px.rowwise())
+      points.emplace_back((middle + scale * (row - middle)).transpose());
+    fill_convex(convex_hull(std::move(points)), mask);
+  }
+  for (std::size_t i = 0; i < mask.values().size(); ++i) {
+    const auto region = static_cast<Region>(view.region.data()[i]);
+    if (region == Region::kEyes || region == Region::kMouth) mask.data()[i] = 0;
+  }
+  return mask;
+}
+
+ByteImage skin_mask(const ViewLayers& view) {
+  ByteImage mask(view.region.width(), view.region.height(), 1);
+  for (std::size_t i = 0; i < mask.values().size(); ++i) {
+    const auto region = static_cast<Region>(view.region.data()[i]);
+    mask.data()[i] = region >= Region::kForehead && region < Region::kOther ? 1 : 0;
+  }
+  return mask;
+}
+
+}  // namespace faceprobe::synth

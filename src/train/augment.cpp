@@ -1,0 +1,124 @@
+#include "train/augment.h"
+
+#include "faceprobe/core/color.h"
+#include "faceprobe/synth/photo_layers.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace faceprobe::train {
+namespace {
+
+template <class Picture>
+void mirror(Picture& picture) {
+  const int channels = picture.channels();
+  for (int y = 0; y < picture.height(); ++y) {
+    for (int x = 0; x < picture.width() / 2; ++x) {
+      std::swap_ranges(picture.pixel(x, y), picture.pixel(x, y) + channels, picture.pixel(picture.width() - 1 - x, y));
+    }
+  }
+}
+
+// Rec.709 luminance in all channels of both layers, as a grey photo has.
+void take_colour(TrainingPicture& picture) {
+  for (std::size_t i = 0; i < picture.linear.pixel_count(); ++i) {
+    float* light = picture.linear.data() + 3 * i;
+    float* highlight = picture.highlight.data() + 3 * i;
+    std::fill_n(light, 3, luminance(light));
+    std::fill_n(highlight, 3, std::min(light[0], luminance(highlight)));
+    std::uint8_t* clip = picture.clip.data() + 3 * i;
+    std::fill_n(clip, 3, static_cast<std::uint8_t>(clip[0] & clip[1] & clip[2]));
+  }
+}
+
+// A plain matt ellipse over part of the picture.
+void put_before(TrainingPicture& picture, Random& random) {
+  const auto size = static_cast<double>(picture.linear.width());
+  const double x0 = random.uniform() * size;
+  const double y0 = random.uniform() * static_cast<double>(picture.linear.height());
+  const double a = random.between(0.05, 0.22) * size;
+  const double b = random.between(0.05, 0.22) * size;
+  const double angle = random.between(0, 3.14159265);
+  std::array<float, 3> colour{};
+  for (float& channel : colour) channel = static_cast<float>(random.log_between(0.01, 0.8));
+  for (int y = 0; y < picture.linear.height(); ++y) {
+    for (int x = 0; x < picture.linear.width(); ++x) {
+      const double dx = x + 0.5 - x0;
+      const double dy = y + 0.5 - y0;
+      const double u = (dx * std::cos(angle) + dy * std::sin(angle)) / a;
+      const double v = (dy * std::cos(angle) - dx * std::sin(angle)) / b;
+      if (u * u + v * v > 1) continue;
+      const float shade = static_cast<float>(1.0 - 0.4 * v);
+      for (std::size_t c = 0; c < 3; ++c) {
+        picture.linear(x, y, static_cast<int>(c)) = std::min(1.0F, shade * colour[c]);
+        picture.highlight(x, y, static_cast<int>(c)) = 0;
+        picture.clip(x, y, static_cast<int>(c)) = 0;
+      }
+      picture.skin(x, y) = 0;
+    }
+  }
+}
+
+TrainingPicture picture_of(const synth::ShardReader& reader, int number, float mask_scale) {
+  const synth::Sample sample = reader.copy_sample(number);
+  const synth::ViewLayers view = reader.copy_view(number);
+  synth::PhotoLayers layers = synth::photo_layers(sample);
+  TrainingPicture picture{std::move(layers.linear), ByteImage(sample.clip.width(), sample.clip.height(), 3),
+                          synth::face_mask(view, mask_scale), std::move(layers.highlight), synth::skin_mask(view)};
+  for (std::size_t i = 0; i < sample.clip.pixel_count(); ++i) {
+    for (std::size_t c = 0; c < 3; ++c)
+      picture.clip.data()[3 * i + c] = static_cast<std::uint8_t>(sample.clip.data()[i] >> c & 1U);
+  }
+  return picture;
+}
+
+}  // namespace
+
+void apply_gain(const std::array<float, 3>& gain, TrainingPicture& picture) {
+  for (std::size_t i = 0; i < picture.linear.values().size(); ++i) {
+    float& light = picture.linear.data()[i];
+    float& highlight = picture.highlight.data()[i];
+    std::uint8_t& clip = picture.clip.data()[i];
+    // What was clipped stays white: how bright it was is not known.
+    const float g = clip != 0 ? std::min(1.0F, gain[i % 3]) : gain[i % 3];
+    const float diffuse = g * (light - highlight);
+    light *= g;
+    highlight *= g;
+    if (light >= 1.0F) {
+      light = 1.0F;
+      highlight = 1.0F - std::min(1.0F, diffuse);
+      clip = 1;
+    }
+  }
+}
+
+TrainingPicture plain_picture(const synth::ShardReader& reader, int sample) { return picture_of(reader, sample, 1.0F); }
+
+TrainingPicture draw_picture(const synth::ShardReader& reader, int sample, const TrainConfig& config, Random& random) {
+  const AugmentConfig& augment = config.augment;
+  // Everything is drawn in the same order whatever comes of it, so that one setting does not change what another draws.
+  const auto scale = static_cast<float>(random.between(0.94, 1.06));
+  const bool turned = random.chance(0.5);
+  const double exposure = random.normal(0, augment.exposure_deviation);
+  std::array<float, 3> gain{};
+  for (float& g : gain) g = static_cast<float>(std::exp(exposure + random.normal(0, augment.colour_deviation)));
+  const bool grey = random.chance(augment.grey_share);
+  const bool masked = !random.chance(augment.no_mask_share);
+  const bool occluded = random.chance(augment.occluder_share);
+
+  TrainingPicture picture = picture_of(reader, sample, scale);
+  if (config.architecture != "mscr") apply_gain(gain, picture);
+  if (occluded) put_before(picture, random);
+  if (grey) take_colour(picture);
+  if (!masked) std::fill(picture.mask.values().begin(), picture.mask.values().end(), std::uint8_t{1});
+  if (augment.mirror && turned) {
+    mirror(picture.linear);
+    mirror(picture.clip);
+    mirror(picture.mask);
+    mirror(picture.highlight);
+    mirror(picture.skin);
+  }
+  return picture;
+}
+
+}  // namespace faceprobe::train

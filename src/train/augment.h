@@ -1,0 +1,27 @@
+#pragma once
+// Internal: one sample as a network is given it, as it is or changed by chance.
+
+#include "faceprobe/core/random.h"
+#include "faceprobe/synth/shard.h"
+#include "faceprobe/train/config.h"
+
+namespace faceprobe::train {
+
+// All of one size.
+struct TrainingPicture {
+  Image linear;     // 3 channels
+  ByteImage clip;   // 3 channels of 0 and 1
+  ByteImage mask;   // 1 channel
+  Image highlight;  // 3 channels
+  ByteImage skin;   // 1 channel
+};
+
+TrainingPicture plain_picture(const synth::ShardReader& reader, int sample);
+// With the changes of `config.augment`. What the light does to both layers is done to both: gains scale them alike, a channel that
+// passes white is clipped and marked, a thing in front has no highlight that is known, so it is matt.
+TrainingPicture draw_picture(const synth::ShardReader& reader, int sample, const TrainConfig& config, Random& random);
+
+// The change of one layer pair by a gain per channel.
+void apply_gain(const std::array<float, 3>& gain, TrainingPicture& picture);
+
+}  // namespace faceprobe::train

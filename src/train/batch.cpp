@@ -1,0 +1,127 @@
+#include "train/batch.h"
+
+#include "train/augment.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace faceprobe::train {
+namespace {
+
+constexpr std::int64_t kAhead = 4;  // batches that lie ready
+constexpr int kWorkers = 1;         // a sample takes a fiftieth of a step's time on a processor
+
+// The pictures of one sample into place `at` of the batch.
+void put(const TrainingPicture& picture, std::int64_t at, const Batch& batch) {
+  const auto copy = [at](const auto& image, const torch::Tensor& to) {
+    // N x H x W x C in memory.
+    float* out = to.data_ptr<float>() + at * static_cast<std::int64_t>(image.values().size());
+    std::transform(image.values().begin(), image.values().end(), out,
+                   [](auto value) { return static_cast<float>(value); });
+  };
+  copy(picture.linear, batch.linear);
+  copy(picture.clip, batch.clip);
+  copy(picture.mask, batch.mask);
+  copy(picture.highlight, batch.highlight);
+  copy(picture.skin, batch.skin);
+}
+
+Batch empty_batch(std::int64_t count, int width, int height) {
+  const auto pictures = [&](int channels) {
+    return torch::zeros({count, channels, height, width},
+                        torch::TensorOptions().dtype(torch::kFloat).memory_format(torch::MemoryFormat::ChannelsLast));
+  };
+  return {pictures(3), pictures(3), pictures(1), pictures(3), pictures(1)};
+}
+
+template <class Make>
+Batch make_batch(std::size_t count, const Make& make) {
+  Batch batch;
+  for (std::size_t i = 0; i < count; ++i) {
+    const TrainingPicture picture = make(i);
+    if (i == 0) batch = empty_batch(static_cast<std::int64_t>(count), picture.linear.width(), picture.linear.height());
+    put(picture, static_cast<std::int64_t>(i), batch);
+  }
+  return batch;
+}
+
+Batch training_batch(const synth::ShardReader& reader, const TrainConfig& config, std::int64_t step) {
+  const std::vector<int> samples = samples_of_step(config.seed, step, config.batch, reader.sample_count());
+  return make_batch(samples.size(), [&](std::size_t i) {
+    Random random({config.seed, 0xA06, static_cast<std::uint64_t>(step), i});
+    return draw_picture(reader, samples[i], config, random);
+  });
+}
+
+}  // namespace
+
+Batch plain_batch(const synth::ShardReader& reader, const std::vector<int>& samples) {
+  return make_batch(samples.size(), [&](std::size_t i) { return plain_picture(reader, samples[i]); });
+}
+
+std::vector<int> samples_of_step(std::uint64_t seed, std::int64_t step, int batch, int sample_count) {
+  std::vector<int> samples;
+  std::vector<int> order;
+  std::int64_t round_made = -1;
+  for (std::int64_t k = step * batch; k < (step + 1) * batch; ++k) {
+    const std::int64_t round = k / sample_count;
+    if (round != round_made) {  // Fisher and Yates
+      order.resize(static_cast<std::size_t>(sample_count));
+      std::iota(order.begin(), order.end(), 0);
+      Random random({seed, 0x08D38, static_cast<std::uint64_t>(round)});
+      for (int i = sample_count - 1; i > 0; --i) {
+        std::swap(order[static_cast<std::size_t>(i)], order[static_cast<std::size_t>(random.below(i + 1))]);
+      }
+      round_made = round;
+    }
+    samples.push_back(order[static_cast<std::size_t>(k % sample_count)]);
+  }
+  return samples;
+}
+
+BatchSource::BatchSource(const synth::ShardReader& reader, const TrainConfig& config, std::int64_t first_step,
+                         bool repeat)
+    : reader_(reader), config_(config), repeat_(repeat), wanted_(first_step), started_(first_step) {
+  for (int i = 0; i < kWorkers; ++i) workers_.emplace_back([this] { work(); });
+}
+
+BatchSource::~BatchSource() {
+  const std::scoped_lock lock(mutex_);
+  stop_ = true;
+  changed_.notify_all();
+}
+
+void BatchSource::work() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    changed_.wait(lock, [this] { return stop_ || failure_ || started_ < wanted_ + kAhead; });
+    if (stop_ || failure_) return;
+    const std::int64_t step = started_++;
+    lock.unlock();
+    Batch batch;
+    std::exception_ptr failure;
+    try {
+      batch = training_batch(reader_, config_, step);
+    } catch (...) {
+      failure = std::current_exception();
+    }
+    lock.lock();
+    if (failure) failure_ = failure;
+    ready_[step] = std::move(batch);
+    changed_.notify_all();
+    if (repeat_) return;
+  }
+}
+
+Batch BatchSource::next() {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [this] { return failure_ || ready_.contains(wanted_); });
+  if (failure_) std::rethrow_exception(failure_);
+  if (repeat_) return ready_[wanted_];
+  Batch batch = std::move(ready_[wanted_]);
+  ready_.erase(wanted_++);
+  changed_.notify_all();
+  return batch;
+}
+
+}  // namespace faceprobe::train

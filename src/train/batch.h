@@ -1,0 +1,59 @@
+#pragma once
+// Internal: samples made ready for a network, several at a time, on threads beside the training. Which samples make up step s, and how
+// they are changed, depends on the seed and s alone.
+
+#include "faceprobe/synth/shard.h"
+#include "faceprobe/train/config.h"
+
+#include <torch/torch.h>
+#include <condition_variable>
+#include <map>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace faceprobe::train {
+
+// N pictures of H x W. Float, channels-last, on the processor.
+struct Batch {
+  torch::Tensor linear;     // N x 3 x H x W
+  torch::Tensor clip;       // N x 3 x H x W of 0 and 1
+  torch::Tensor mask;       // N x 1 x H x W of 0 and 1
+  torch::Tensor highlight;  // N x 3 x H x W
+  torch::Tensor skin;       // N x 1 x H x W of 0 and 1: where errors count whole
+};
+
+// Samples as they are, for validation.
+Batch plain_batch(const synth::ShardReader& reader, const std::vector<int>& samples);
+
+// The samples of a step: a new order of all of them in each round through the data.
+std::vector<int> samples_of_step(std::uint64_t seed, std::int64_t step, int batch, int sample_count);
+
+// Makes batches ahead. `repeat` gives the first one again and again: what a step costs when data costs nothing.
+class BatchSource {
+ public:
+  BatchSource(const synth::ShardReader& reader, const TrainConfig& config, std::int64_t first_step, bool repeat = false);
+  ~BatchSource();
+  BatchSource(const BatchSource&) = delete;
+  BatchSource& operator=(const BatchSource&) = delete;
+
+  // That of the next step. Rethrows what went wrong while it was made.
+  Batch next();
+
+ private:
+  void work();
+
+  const synth::ShardReader& reader_;
+  TrainConfig config_;
+  bool repeat_;
+  std::int64_t wanted_;  // step that next() gives
+  std::int64_t started_;
+  std::map<std::int64_t, Batch> ready_;
+  std::exception_ptr failure_;
+  bool stop_ = false;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<std::jthread> workers_;  // last, so that they end first
+};
+
+}  // namespace faceprobe::train

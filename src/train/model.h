@@ -1,0 +1,27 @@
+#pragma once
+// Internal: the network that is being trained, behind one call whatever its architecture.
+
+#include "faceprobe/train/config.h"
+#include "train/batch.h"
+
+#include <torch/torch.h>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+
+namespace faceprobe::train {
+
+struct Model {
+  std::shared_ptr<torch::nn::Module> module;
+  // For the loss: the layer as it comes. Bounded for the U-Net, raw for MSCR, which is trained on what it says (paper Sec. 3.1).
+  std::function<torch::Tensor(const Batch&)> forward;
+  // For use: within the picture, 0 <= H <= I.
+  std::function<torch::Tensor(const Batch&)> highlight;
+  std::map<std::string, std::string> metadata;  // of the weights file
+};
+
+// Throws Error(kUsage) for options that are not the architecture's own. Weights are drawn from torch's generator.
+Model make_model(const TrainConfig& config);
+
+}  // namespace faceprobe::train

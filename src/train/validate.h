@@ -1,0 +1,21 @@
+#pragma once
+// Internal: how good a network is on samples it is not trained on, and what that looks like.
+
+#include "faceprobe/train/train.h"
+#include "train/model.h"
+
+namespace faceprobe::train {
+
+class Validator {
+ public:
+  // Takes up to `count` samples, spread evenly over the data set.
+  Validator(const synth::ShardReader& reader, int count, const torch::Device& device);
+  Validation measure(const Model& model) const;
+  // Rows of photo, highlight that is known, highlight that was found, what is left; the layers twice as bright as they are.
+  ByteImage picture(const Model& model, int rows) const;
+
+ private:
+  std::vector<Batch> batches_;
+};
+
+}  // namespace faceprobe::train

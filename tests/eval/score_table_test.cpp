@@ -1,0 +1,116 @@
+#include "faceprobe/eval/score_table.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+namespace faceprobe::eval {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+ScoreTable small_table() {
+  ScoreTable table({.seed = 3, .resamples = 100});
+  table.order_labels("skin", {"tan", "dark"});
+  table.add({.method = "yang", .sample = "1", .groups = {{"skin", "dark"}}, .metrics = {{"rmse", 4}, {"ssim", 0.5}}});
+  table.add({.method = "yang", .sample = "2", .groups = {{"skin", "tan"}}, .metrics = {{"rmse", 8}, {"ssim", 0.75}}});
+  table.add({.method = "net", .sample = "1", .groups = {{"skin", "dark"}}, .metrics = {{"rmse", 2}}});
+  table.add({.method = "net", .sample = "2", .groups = {{"skin", "tan"}}, .metrics = {{"rmse", kNan}, {"ssim", 1}}});
+  return table;
+}
+
+TEST(ScoreTable, SelectsByMethodAndLabel) {
+  const ScoreTable table = small_table();
+  EXPECT_EQ(table.methods(), (std::vector<std::string>{"yang", "net"}));
+  EXPECT_EQ(table.metrics(), (std::set<std::string>{"rmse", "ssim"}));
+  EXPECT_EQ(table.values("rmse", {.method = "yang"}), (std::vector<double>{4, 8}));
+  EXPECT_EQ(table.values("rmse", {.group = "skin", .label = "dark"}), (std::vector<double>{4, 2}));
+  EXPECT_EQ(table.values("ssim", {"yang", "skin", "tan"}), (std::vector<double>{0.75}));
+  EXPECT_TRUE(table.values("rmse", {.group = "hair", .label = "dark"}).empty());
+  EXPECT_EQ(table.summary("rmse", {.method = "yang"}).mean, 6);
+  EXPECT_EQ(table.histogram("rmse", {}, 0, 10, 2).counts, (std::vector<std::size_t>{2, 1}));
+}
+
+TEST(ScoreTable, CountsWhatAMethodFailedOn) {
+  const Summary failed = small_table().summary("rmse", {.method = "net"});
+  EXPECT_EQ(failed.count, 1U);
+  EXPECT_EQ(failed.missing, 1U);
+  EXPECT_EQ(small_table().summary("ssim", {.method = "net"}).missing, 1U);  // the metric is not in the row at all
+}
+
+TEST(ScoreTable, LabelsComeInTheGivenOrderAndThenByName) {
+  ScoreTable table = small_table();
+  EXPECT_EQ(table.labels("skin"), (std::vector<std::string>{"tan", "dark"}));
+  table.add({.method = "net", .sample = "3", .groups = {{"skin", "brown"}}});
+  EXPECT_EQ(table.labels("skin"), (std::vector<std::string>{"tan", "dark", "brown"}));
+}
+
+TEST(ScoreTable, RefusesRowsThatWouldConfuse) {
+  ScoreTable table = small_table();
+  EXPECT_THROW(table.add({.method = "yang", .sample = "1"}), std::invalid_argument);  // there already
+  EXPECT_THROW(table.add({.method = "", .sample = "9"}), std::invalid_argument);
+  EXPECT_THROW(table.add({.method = "a", .sample = ""}), std::invalid_argument);
+  EXPECT_THROW(table.add({.method = "a", .sample = "9", .groups = {{"method", "b"}}}), std::invalid_argument);
+  EXPECT_THROW(table.add({.method = "a", .sample = "9", .groups = {{"rmse", "b"}}}), std::invalid_argument);
+  EXPECT_THROW(table.add({.method = "a", .sample = "9", .metrics = {{"skin", 1}}}), std::invalid_argument);
+  EXPECT_THROW(table.add({.method = "a", .sample = "9", .groups = {{"x", "b"}}, .metrics = {{"x", 1}}}),
+               std::invalid_argument);
+  EXPECT_EQ(table.rows().size(), 4U);
+  EXPECT_EQ(table.groups(), (std::set<std::string>{"skin"}));
+}
+
+TEST(ScoreTable, Csv) {
+  ScoreTable table;
+  table.add({.method = "a,b", .sample = "say \"x\"", .groups = {{"g", "l"}}, .metrics = {{"m", 0.1}}});
+  table.add({.method = "c", .sample = "2", .metrics = {{"m", kNan}, {"n", 1e300}}});
+  EXPECT_EQ(table.csv(), "method,sample,g,m,n\r\n\"a,b\",\"say \"\"x\"\"\",l,0.1,\r\nc,2,,,1e+300\r\n");
+  EXPECT_EQ(ScoreTable().csv(), "method,sample\r\n");
+}
+
+TEST(ScoreTable, Json) {
+  const nlohmann::json json = nlohmann::json::parse(small_table().json());
+  EXPECT_EQ(json["bootstrap"]["seed"], 3);
+  ASSERT_EQ(json["rows"].size(), 4U);
+  EXPECT_EQ(json["rows"][0]["metrics"]["rmse"], 4);
+  EXPECT_EQ(json["rows"][0]["groups"]["skin"], "dark");
+  EXPECT_TRUE(json["rows"][3]["metrics"]["rmse"].is_null());
+  ASSERT_EQ(json["summaries"].size(), 12U);  // 2 metrics x 2 methods x (all + 2 labels)
+  const nlohmann::json& first = json["summaries"][0];
+  EXPECT_EQ(first["method"], "yang");
+  EXPECT_EQ(first["metric"], "rmse");
+  EXPECT_EQ(first["mean"], 6);
+  EXPECT_EQ(first["mean_95"].size(), 2U);
+  EXPECT_FALSE(first.contains("group"));
+  EXPECT_EQ(json["summaries"][1]["label"], "tan");
+  EXPECT_EQ(json["summaries"][1]["count"], 1);
+  EXPECT_TRUE(json["summaries"][1]["mean_95"][0].is_null());  // of one value
+}
+
+TEST(ScoreTable, JsonTakesAnyBytesAndNoRows) {
+  ScoreTable table;
+  table.add({.method = "\xff", .sample = "1"});
+  EXPECT_TRUE(nlohmann::json::parse(ScoreTable().json())["rows"].is_array());
+  EXPECT_TRUE(nlohmann::json::parse(table.json())["rows"][0]["metrics"].is_object());
+}
+
+TEST(ScoreTable, Markdown) {
+  ScoreTable table({.resamples = 10});
+  for (const char* sample : {"1", "2", "3"}) table.add({.method = "a|b", .sample = sample, .metrics = {{"rmse", 2}}});
+  table.add({.method = "c", .sample = "1", .metrics = {{"rmse", kNan}}});
+  EXPECT_EQ(table.markdown("rmse", 1),
+            "| rmse | n | mean | 95 % of the mean | median | p90 |\n"
+            "|---|---:|---:|---:|---:|---:|\n"
+            "| a\\|b | 3 | 2.0 | [2.0, 2.0] | 2.0 | 2.0 |\n"
+            "| c | 0 (1 missing) | - | [-, -] | - | - |\n");
+  EXPECT_EQ(small_table().markdown_by_group("rmse", "skin", 1),
+            "| rmse | tan | dark |\n"
+            "|---|---:|---:|\n"
+            "| yang | 8.0 [-, -], n = 1 | 4.0 [-, -], n = 1 |\n"
+            "| net | - [-, -], n = 0 (1 missing) | 2.0 [-, -], n = 1 |\n");
+}
+
+}  // namespace
+}  // namespace faceprobe::eval
