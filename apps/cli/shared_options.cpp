@@ -1,6 +1,7 @@
 #include "shared_options.h"
 
 #include "faceprobe/core/error.h"
+#include "faceprobe/io/data_files.h"
 
 #include <charconv>
 #include <cmath>
@@ -32,7 +33,9 @@ void add_inputs(CLI::App& command, SharedOptions& options) {
 }
 
 void add_face_options(CLI::App& command, SharedOptions& options) {
-  command.add_option("--separator", options.separator, "highlight separator: tan, yang, shen")->capture_default_str();
+  command.add_option("--separator", options.separator, "highlight separator: net (trained), or tan, yang, shen (classical)")
+      ->capture_default_str();
+  command.add_option("--weights", options.weights, "weights of the network in place of those that come with the program");
   command.add_option(
       "--landmarks", options.landmarks,
       "x1,y1,... in pixels instead of detection: 5 points (eyes left to right, nose tip, mouth corners) or 68");
@@ -102,7 +105,13 @@ pipeline::EstimateOptions estimate_options(const SharedOptions& options) {
   }
   if (const std::string fault = options.limits.validate(); !fault.empty()) throw Error(ExitCode::kUsage, fault);
   pipeline::EstimateOptions out;
-  out.separator = highlight::separator_from_name(options.separator);
+  if (options.separator == "net") {
+    out.highlight_weights = options.weights.empty() ? io::data_file("highlight.safetensors") : std::filesystem::path(options.weights);
+  } else {
+    out.separator = highlight::separator_from_name(options.separator);
+    if (!options.weights.empty())
+      throw Error(ExitCode::kUsage, "--weights are the network's; --separator " + options.separator + " takes none.");
+  }
   out.solve.solver = lighting::solver_from_name(options.solver);
   out.solve.iterations = options.iterations;
   out.map_width = parse_map_width(options.size);

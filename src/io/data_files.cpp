@@ -18,6 +18,7 @@ std::vector<fs::path> data_folders() {
   const fs::path executable = fs::read_symlink("/proc/self/exe", error);
   if (!error) folders.push_back(executable.parent_path().parent_path() / "share" / "faceprobe");
   folders.emplace_back(FACEPROBE_BUILD_DATA_DIR);
+  folders.emplace_back(FACEPROBE_BUILD_MODELS_DIR);
   return folders;
 }
 

@@ -5,6 +5,9 @@
 #include "io/safetensors_header.h"
 
 #include <fcntl.h>
+#ifdef __F16C__
+#include <immintrin.h>
+#endif
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -141,11 +144,28 @@ std::span<const std::byte> MappedTensors::bytes_of(const std::string& name, cons
 
 void to_half(std::span<const float> from, std::span<Half> to) {
   constexpr float kLargest = 65504.0F;
-  for (std::size_t i = 0; i < from.size(); ++i) to[i] = Half(std::clamp(from[i], -kLargest, kLargest));
+  std::size_t i = 0;
+#ifdef __F16C__
+  const __m256 largest = _mm256_set1_ps(kLargest);
+  const __m256 least = _mm256_set1_ps(-kLargest);
+  for (; i + 8 <= from.size(); i += 8) {
+    const __m256 inside = _mm256_min_ps(largest, _mm256_max_ps(least, _mm256_loadu_ps(from.data() + i)));
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(to.data() + i),
+                     _mm256_cvtps_ph(inside, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC));
+  }
+#endif
+  for (; i < from.size(); ++i) to[i] = Half(std::clamp(from[i], -kLargest, kLargest));
 }
 
 void to_float(std::span<const Half> from, std::span<float> to) {
-  for (std::size_t i = 0; i < from.size(); ++i) to[i] = static_cast<float>(from[i]);
+  std::size_t i = 0;
+#ifdef __F16C__
+  for (; i + 8 <= from.size(); i += 8) {
+    _mm256_storeu_ps(to.data() + i,
+                     _mm256_cvtph_ps(_mm_loadu_si128(reinterpret_cast<const __m128i*>(from.data() + i))));
+  }
+#endif
+  for (; i < from.size(); ++i) to[i] = static_cast<float>(from[i]);
 }
 
 }  // namespace faceprobe::io

@@ -37,7 +37,7 @@ Image divide(const Image& diffuse, const Image& albedo, const ByteImage& skin) {
 
 Estimator::Impl::Impl(EstimateOptions wanted)
     : options(checked(std::move(wanted))), finder(options.finder),
-      mesh(face::load_canonical_mesh(io::data_file("canonical-face-model.obj"))) {}
+      mesh(face::load_canonical_mesh(io::data_file("canonical-face-model.obj"))), highlights(options) {}
 
 std::vector<face::Face> Estimator::Impl::faces_of(const io::Photo& photo, const face::Camera& camera) const {
   if (options.landmarks_px) return {finder.from_landmarks(photo.linear, camera, *options.landmarks_px)};
@@ -57,10 +57,7 @@ FaceEstimate Estimator::Impl::analyse(const io::Photo& photo, const face::Camera
   watch.lap("geometry");
 
   const ByteImage skin = skin_regions(out.geometry);
-  highlight::SeparateOptions separate;
-  separate.separator = options.separator;
-  separate.threads = options.threads;
-  out.layers = highlight::separate(out.picture, skin, separate);
+  out.layers = highlights.separate(out.picture, out.clipped, skin);
   watch.lap("highlights");
 
   const lighting::AlbedoModel albedo = lighting::fit_albedo(out.layers.diffuse, skin, out.clipped, photo.grey);
@@ -116,7 +113,7 @@ Estimate Estimator::estimate(const io::Photo& photo) const {
       static_cast<std::size_t>(std::max_element(out.faces.begin(), out.faces.end(),
                                                 [&](const auto& a, const auto& b) { return area(a) < area(b); }) -
                                out.faces.begin());
-  if (photo.grey) {
+  if (photo.grey && impl_->options.highlight_weights.empty()) {
     out.warnings.emplace_back(
         impl_->options.solve.solver == lighting::Solver::kPaper
             ? "The photo is grey: the classical separators need colour and the paper's solver reads highlights only, "

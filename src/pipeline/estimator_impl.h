@@ -3,6 +3,7 @@
 
 #include "faceprobe/core/error.h"
 #include "faceprobe/pipeline/estimate.h"
+#include "pipeline/highlight_layers.h"
 
 namespace faceprobe::pipeline {
 
@@ -16,6 +17,7 @@ struct Estimator::Impl {
   EstimateOptions options;
   face::FaceFinder finder;
   face::CanonicalMesh mesh;
+  HighlightSeparator highlights;
 };
 
 // The sentence for a photo without a face.

@@ -42,4 +42,8 @@ std::string EstimateOptions::validate() const {
   return {};
 }
 
+std::string EstimateOptions::separator_name() const {
+  return highlight_weights.empty() ? std::string(highlight::separator_name(separator)) : "net";
+}
+
 }  // namespace faceprobe::pipeline

@@ -107,7 +107,7 @@ std::string orientation_name(Orientation orientation) {
 std::map<std::string, std::string> provenance(const io::Photo& photo, const EstimateOptions& options) {
   return {{"faceprobe:version", std::string(kVersion)},
           {"faceprobe:frame", "camera: +x right, +y up, +z to the viewer"},
-          {"faceprobe:separator", std::string(highlight::separator_name(options.separator))},
+          {"faceprobe:separator", options.separator_name()},
           {"faceprobe:solver", std::string(lighting::solver_name(options.solve.solver))},
           {"faceprobe:input_sha256", photo.sha256}};
 }

@@ -101,7 +101,7 @@ std::string report_json(const Estimate& estimate, const io::Photo& photo, const 
   report["camera"] = {{"focal_px", estimate.camera.focal_px},
                       {"focal_source", focal_source_name(estimate.focal_source)},
                       {"centre_px", {estimate.camera.centre_x_px, estimate.camera.centre_y_px}}};
-  report["options"] = {{"separator", highlight::separator_name(options.separator)},
+  report["options"] = {{"separator", options.separator_name()},
                        {"solver", lighting::solver_name(options.solve.solver)},
                        {"iterations", options.solve.iterations},
                        {"nside", options.solve.nside},

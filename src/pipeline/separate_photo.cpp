@@ -39,9 +39,6 @@ highlight::Layers Estimator::separate(const io::Photo& photo) const {
   highlight::Layers whole;
   whole.highlight = Image(photo.linear.width(), photo.linear.height(), 3);
   whole.diffuse = photo.linear;
-  highlight::SeparateOptions options;
-  options.separator = impl_->options.separator;
-  options.threads = impl_->options.threads;
   for (const face::Face& face : faces) {
     const face::Crop crop = full_crop(face, photo.linear.width(), photo.linear.height());
     if (crop.width == 0 || crop.height == 0) continue;
@@ -53,7 +50,7 @@ highlight::Layers Estimator::separate(const io::Photo& photo) const {
       std::copy_n(photo.linear.pixel(left, top + y), 3 * crop.width, picture.pixel(0, y));
     }
     const ByteImage skin = skin_regions(geometry);
-    const highlight::Layers layers = highlight::separate(picture, skin, options);
+    const highlight::Layers layers = impl_->highlights.separate(picture, face::crop_flags(photo.clipped, crop), skin);
     for (int y = 0; y < crop.height; ++y) {
       for (int x = 0; x < crop.width; ++x) {
         if (skin(x, y) == 0) continue;

@@ -60,8 +60,8 @@ void put_before(TrainingPicture& picture, Random& random) {
 }
 
 TrainingPicture picture_of(const synth::ShardReader& reader, int number, float mask_scale) {
-  const synth::Sample sample = reader.copy_sample(number);
-  const synth::ViewLayers view = reader.copy_view(number);
+  const synth::Sample sample = reader.copy_light(number);
+  const synth::ViewLayers view = reader.copy_faces(number);
   synth::PhotoLayers layers = synth::photo_layers(sample);
   TrainingPicture picture{std::move(layers.linear), ByteImage(sample.clip.width(), sample.clip.height(), 3),
                           synth::face_mask(view, mask_scale), std::move(layers.highlight), synth::skin_mask(view)};

@@ -18,6 +18,7 @@ source "$here/expect.sh"
 source "$here/cases_refusals.sh"
 source "$here/cases_results.sh"
 source "$here/cases_output.sh"
+source "$here/cases_synth.sh"
 
 declare -F "case_$name" >/dev/null || { echo "there is no case $name"; exit 2; }
 "case_$name"

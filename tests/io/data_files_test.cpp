@@ -54,7 +54,7 @@ TEST_F(DataFolder, NamedFolderIsTheOnlyOne) {
 TEST_F(DataFolder, OtherwiseBesideTheProgramThenTheBuild) {
   ::unsetenv("FACEPROBE_DATA_DIR");
   const auto folders = data_folders();
-  ASSERT_EQ(folders.size(), 2U);
+  ASSERT_EQ(folders.size(), 3U);
   EXPECT_TRUE(folders[0].string().ends_with("share/faceprobe"));
   expect_error(ExitCode::kModel, {"no_such_model.bin", folders[0].string(), folders[1].string()},
                [] { data_file("no_such_model.bin"); });

@@ -1,6 +1,6 @@
 #pragma once
 // Where the models and meshes that the program needs lie: $FACEPROBE_DATA_DIR if set, else share/faceprobe beside the
-// executable's bin folder, else the folder the build was configured with.
+// executable's bin folder, else the folders the build was configured with: what set-up fetched, and models/.
 
 #include <cstddef>
 #include <cstdint>

@@ -25,6 +25,7 @@
 #include "faceprobe/lighting/main_lights.h"
 
 #include <Eigen/Core>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -34,6 +35,8 @@ namespace faceprobe::pipeline {
 
 struct EstimateOptions {
   face::FinderOptions finder;
+  // Weights of the highlight network (net/highlight_net.h; models/README.md). Empty: the classical `separator`.
+  std::filesystem::path highlight_weights;
   highlight::Separator separator = highlight::Separator::kYang;  // smoothest on skin; see docs/results.md
   lighting::SolveOptions solve;
   lighting::MainLightOptions main_lights;
@@ -50,6 +53,8 @@ struct EstimateOptions {
 
   // Empty when usable, else a sentence that says which value is wrong.
   std::string validate() const;
+  // "net", or the classical separator's name: what reports call it.
+  std::string separator_name() const;
 };
 
 // What one light estimate amounts to, in every form people use.

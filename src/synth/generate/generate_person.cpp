@@ -140,7 +140,6 @@ std::vector<ViewSamples> generate_person(const Assets& assets, const Recipe& rec
         }
       }
     });
-    const std::vector<FragmentLight> lit = shade(scene, transport, view_transport, lights, {.threads = threads});
     watch.lap(spent.shade);
 
     std::vector<ViewSurface> surfaces;
@@ -151,25 +150,31 @@ std::vector<ViewSamples> generate_person(const Assets& assets, const Recipe& rec
       }
     }
     out.samples.resize(count);
-    parallel_for(recipe.samples_per_view, threads, [&](int first, int last) {
-      for (int s = first; s < last; ++s) {
+    watch.lap(spent.compose);
+    // A product of this many maps is as fast as it gets, and its results still fit into memory whatever the number of maps.
+    constexpr int kMapsAtOnce = 64;
+    std::vector<FragmentLight> lit;
+    int begin = 0;
+    const auto compose = [&](int first, int last) {
+      for (int s = begin + first; s < begin + last; ++s) {
         const auto k = static_cast<std::size_t>(s);
+        const FragmentLight& light = lit[static_cast<std::size_t>(s - begin)];
         const SampleDraw& draw = draws[k];
         const SkinSettings& skin = people.front().skins[static_cast<std::size_t>(draw.skin)];
         const ViewSurface& surface = surfaces[static_cast<std::size_t>(draw.skin)];
         const MapLight& map = assets.maps[static_cast<std::size_t>(draw.map)];
-        Eigen::MatrixX3f shading = lit[k].shading;
+        Eigen::MatrixX3f shading = light.shading;
         if (recipe.bounce_rays > 0)
-          shading += bounced_shading(transport, view_transport, lit[k].vertex_shading, surface.row_albedo);
+          shading += bounced_shading(transport, view_transport, light.vertex_shading, surface.row_albedo);
         if (recipe.mode == Mode::kDefault) scatter_below_surface(view_transport.fragments, view.camera, shading);
-        const FaceMean mean = face_mean(view_transport.fragments, surface, shading, lit[k].specular);
+        const FaceMean mean = face_mean(view_transport.fragments, surface, shading, light.specular);
         const Eigen::Vector3f gain = exposure_gain(draw, mean.radiance, mean.light, skin.target_tone);
         const Eigen::Vector3f distant_gain = map_gain[k] * gain;
         const Image background = recipe.mode == Mode::kPaper ? Image(recipe.size_px, recipe.size_px, 3)
                                                              : draw_background(map, view.camera, camera_from_map[k],
                                                                                distant_gain, draw.background_blur_px);
         LinearLayers layers =
-            gather_layers(view_transport.fragments, surface, shading, lit[k].specular, background, gain);
+            gather_layers(view_transport.fragments, surface, shading, light.specular, background, gain);
         Image radiance = layers.diffuse;
         for (std::size_t i = 0; i < radiance.values().size(); ++i) radiance.data()[i] += layers.highlight.data()[i];
         Random camera_random = view_random.split(static_cast<std::uint64_t>(s)).split(1);
@@ -193,8 +198,15 @@ std::vector<ViewSamples> generate_person(const Assets& assets, const Recipe& rec
         sample.map_yaw = draw.map_yaw;
         sample.settings_json = settings_json(assets, draw, skin, gain);
       }
-    });
-    watch.lap(spent.compose);
+    };
+    for (; begin < recipe.samples_per_view; begin += kMapsAtOnce) {
+      const int maps = std::min(kMapsAtOnce, recipe.samples_per_view - begin);
+      const auto chunk = std::span(lights).subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(maps));
+      lit = shade(scene, transport, view_transport, chunk, {.threads = threads});
+      watch.lap(spent.shade);
+      parallel_for(maps, threads, compose);
+      watch.lap(spent.compose);
+    }
     result.push_back(std::move(out));
   }
   return result;

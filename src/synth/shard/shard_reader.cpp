@@ -113,13 +113,19 @@ std::pair<const MappedTensors*, int> ShardReader::place(int sample) const {
   return {&shards_[static_cast<std::size_t>(shard)], number};
 }
 
-Sample ShardReader::copy_sample(int number) const {
+Sample ShardReader::copy_light(int number) const {
   const auto [file, at] = place(number);
   Sample sample;
   sample.photo = bytes_of(*file, "sample.photo", at, 3);
   sample.clip = bytes_of(*file, "sample.clip", at, 1);
   sample.highlight = image_of(*file, "sample.highlight", at, 3);
   sample.diffuse = image_of(*file, "sample.diffuse", at, 3);
+  return sample;
+}
+
+Sample ShardReader::copy_sample(int number) const {
+  const auto [file, at] = place(number);
+  Sample sample = copy_light(number);
   sample.albedo = image_of(*file, "sample.albedo", at, 3);
   sample.shading = image_of(*file, "sample.shading", at, 3);
   sample.environment = EnvMap(image_of(*file, "sample.environment", at, 3));
@@ -136,16 +142,29 @@ Sample ShardReader::copy_sample(int number) const {
   return sample;
 }
 
-ViewLayers ShardReader::copy_view(int number) const {
+int ShardReader::view_of(int number) const {
   const auto [file, sample] = place(number);
   const int at = file->values<std::int32_t>("sample.view", {-1})[static_cast<std::size_t>(sample)];
   if (at < 0 || at >= file->shape("view.person").at(0)) {
     throw Error(ExitCode::kInput, "Sample " + std::to_string(number) +
                                       " names a view that is not there: the shard is damaged. Make it again.");
   }
-  ViewLayers view;
+  return at;
+}
+
+ViewLayers ShardReader::copy_view(int number) const {
+  const io::MappedTensors* file = place(number).first;
+  const int at = view_of(number);
+  ViewLayers view = copy_faces(number);
   view.normal = image_of(*file, "view.normal", at, 3);
   view.depth_m = image_of(*file, "view.depth", at, 1);
+  return view;
+}
+
+ViewLayers ShardReader::copy_faces(int number) const {
+  const io::MappedTensors* file = place(number).first;
+  const int at = view_of(number);
+  ViewLayers view;
   view.region = bytes_of(*file, "view.region", at, 1);
   view.owner = bytes_of(*file, "view.owner", at, 1);
   const std::span<const float> camera = floats_of(*file, "view.camera", at);

@@ -163,8 +163,11 @@ Eigen::SparseMatrix<float, Eigen::RowMajor> build_bounce(const Scene& scene, con
 
 Eigen::MatrixX3f bounced_shading(const SceneTransport& transport, const ViewTransport& view,
                                  const Eigen::MatrixX3f& vertex_shading, const Eigen::MatrixX3f& vertex_albedo) {
-  const Eigen::MatrixX3f radiosity = vertex_shading.cwiseProduct(vertex_albedo);
-  const Eigen::MatrixX3f gathered = transport.bounce * radiosity;
+  // Channels side by side, so that each entry of the matrix is read once.
+  using Rows = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
+  const Rows radiosity = vertex_shading.cwiseProduct(vertex_albedo);
+  const Rows product = transport.bounce * radiosity;
+  const Eigen::MatrixX3f gathered = product;
   Eigen::MatrixX3f out = Eigen::MatrixX3f::Zero(view.fragments.count(), 3);
   mix(view.fragments, mix_rows(transport, view.fragments), gathered, out);
   return out;

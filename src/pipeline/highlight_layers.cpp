@@ -1,0 +1,69 @@
+#include "pipeline/highlight_layers.h"
+
+#include "faceprobe/core/error.h"
+#include "faceprobe/face/geometry.h"
+#include "faceprobe/highlight/upsample.h"
+
+#ifdef FACEPROBE_HAS_NET
+#include "faceprobe/net/highlight_net.h"
+#endif
+
+#include <algorithm>
+#include <cmath>
+
+namespace faceprobe::pipeline {
+
+#ifdef FACEPROBE_HAS_NET
+
+struct HighlightSeparator::Network {
+  net::HighlightNet net;
+  int threads;
+  // Long side of the copy. Synthetic faces of 128 px fill their pictures about as a crop does.
+  static constexpr int kLongSidePx = 128;
+
+  highlight::Layers separate(const Image& picture, const ByteImage& flags, const ByteImage& skin) const {
+    const int long_side = std::max(picture.width(), picture.height());
+    const double scale = std::min(1.0, static_cast<double>(kLongSidePx) / long_side);
+    const auto shrunk = [scale](int px) { return std::max(1, static_cast<int>(std::lround(scale * px))); };
+    const face::Crop copy{.x_px = 0, .y_px = 0, .scale = scale, .width = shrunk(picture.width()), .height = shrunk(picture.height())};
+    const Image small = face::crop_picture(picture, copy);
+    ByteImage where(skin.width(), skin.height(), 1);
+    std::transform(skin.values().begin(), skin.values().end(), where.values().begin(),
+                   [](std::uint8_t value) { return value != 0 ? std::uint8_t{1} : std::uint8_t{0}; });
+    const Image found = net.highlight(small, face::crop_flags(flags, copy), face::crop_flags(where, copy));
+    highlight::Layers layers;
+    layers.highlight = highlight::upsample_highlight(found, small, picture, where, {.threads = threads});
+    layers.diffuse = picture;
+    for (std::size_t i = 0; i < picture.values().size(); ++i) layers.diffuse.data()[i] -= layers.highlight.data()[i];
+    return layers;
+  }
+};
+
+HighlightSeparator::HighlightSeparator(const EstimateOptions& options)
+    : classical_{.separator = options.separator, .threads = options.threads} {
+  if (options.highlight_weights.empty()) return;
+  const net::HighlightNetOptions net_options{.threads = options.deterministic ? 1 : options.threads};
+  network_.reset(new Network{net::HighlightNet(options.highlight_weights, net_options), options.threads});
+}
+
+#else
+
+struct HighlightSeparator::Network {
+  highlight::Layers separate(const Image&, const ByteImage&, const ByteImage&) const { return {}; }
+};
+
+HighlightSeparator::HighlightSeparator(const EstimateOptions& options)
+    : classical_{.separator = options.separator, .threads = options.threads} {
+  if (options.highlight_weights.empty()) return;
+  throw Error(ExitCode::kModel, "This build of Faceprobe has no networks (FACEPROBE_NET=OFF); choose a separator: tan, yang, shen.");
+}
+
+#endif
+
+HighlightSeparator::~HighlightSeparator() = default;
+
+highlight::Layers HighlightSeparator::separate(const Image& picture, const ByteImage& flags, const ByteImage& skin) const {
+  return network_ ? network_->separate(picture, flags, skin) : highlight::separate(picture, skin, classical_);
+}
+
+}  // namespace faceprobe::pipeline

@@ -1,0 +1,75 @@
+# Synthetic faces, training on them, and measuring.
+
+# Faces that cost little: the built-in head and maps.
+few_faces=(--size 32 --views 1 --lights 2 --skins-per-person 1 --seed 4)
+
+case_synth() {
+  expect_exit 0 synth --count 3 "${few_faces[@]}" -o faces --preview sheet.png --json
+  expect_files faces CARD.md index.json recipe.json shard-00000.safetensors shard-00001.safetensors
+  expect_json 3 stdout samples
+  expect_json 3 stdout samples_made
+  [ -s sheet.png ] || fail "no sheet"
+  cp -r faces before
+  # Everything is there: nothing is made again, and nothing changes.
+  expect_exit 0 synth --count 3 "${few_faces[@]}" -o faces --threads 1 --json
+  expect_json 0 stdout samples_made
+  diff -r before faces || fail "a second run changed the data set"
+  # A shard that is missing is made again, the same.
+  rm faces/shard-00001.safetensors
+  expect_exit 0 synth --count 3 "${few_faces[@]}" -o faces --json
+  expect_json 1 stdout samples_made
+  diff -r before faces || fail "a resumed run made something else"
+}
+
+case_synth_refusals() {
+  expect_refused 2 "size is 8" synth --count 1 --size 8 -o out
+  expect_refused 2 "too small for several faces" synth --count 1 --size 64 --multi-face -o out
+  expect_refused 2 "--mode" synth --mode magic -o out
+  expect_refused 3 "nowhere" synth --heads nowhere -o out
+  expect_refused 3 "nowhere" synth --maps nowhere -o out
+  expect_refused 3 "nowhere" synth --skins nowhere -o out
+  expect_refused 3 "nowhere.mat" synth --reflectance nowhere.mat -o out
+  printf 'v 0 0 0\nv 1 0\nf 1 2 9\n' >broken.obj
+  expect_refused 3 "broken.obj" synth --heads broken.obj -o out
+  mkdir maps
+  printf '#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n' >maps/cut.hdr
+  expect_refused 3 "cut.hdr" synth --maps maps -o out
+  [ ! -e out ] || fail "a refusal left a folder"
+  mkdir taken
+  expect_exit 0 synth --count 1 "${few_faces[@]}" -o taken
+  expect_refused 6 "seed" synth --count 1 "${few_faces[@]}" --seed 5 -o taken
+  expect_refused 3 "nowhere" synth unwrap "$photo" --head nowhere -o skins
+  expect_refused 2 "--head" synth unwrap "$photo"
+}
+
+case_synth_full_disk() {
+  (
+    trap '' XFSZ
+    ulimit -f 8
+    expect_refused 6 "cannot be written" synth --count 1 "${few_faces[@]}" -o faces
+  )
+  [ ! -e faces/shard-00000.safetensors ] || fail "half a shard was left"
+  # With room again the same command ends well.
+  expect_exit 0 synth --count 1 "${few_faces[@]}" -o faces
+  expect_files faces CARD.md index.json recipe.json shard-00000.safetensors
+}
+
+case_train_and_eval() {
+  expect_exit 0 synth --count 4 --size 64 --views 2 --lights 2 --seed 4 -o faces
+  echo '{"batch": 2, "steps": 4, "save_every": 2, "network": {"widths": [8, 16]}}' >tiny.json
+  expect_exit 0 train highlight --config tiny.json --data faces --validation faces -o run --threads 1 --json
+  expect_json 4 stdout steps
+  expect_files run checkpoint.pt config.json curves.png log.csv validation.png weights.safetensors
+  expect_exit 0 eval highlight --data faces --weights mine=run/weights.safetensors --samples 4 -o scores --threads 1
+  expect_stdout "| mine |"
+  expect_stdout "| black layer |"
+  expect_files scores highlight.csv highlight.json highlight.png
+
+  echo '{"bach": 2}' >wrong.json
+  expect_refused 2 "bach" train highlight --config wrong.json --data faces -o other
+  expect_refused 3 "nowhere" train highlight --data nowhere -o other
+  expect_refused 7 "cuda" train highlight --data faces -o other --device cuda
+  expect_refused 5 "tiny.json" eval highlight --data faces --weights tiny.json
+  echo '{"batch": 1, "steps": 4, "network": {"widths": [8, 16]}}' >changed.json
+  expect_refused 6 "another config" train highlight --config changed.json --data faces -o run
+}
