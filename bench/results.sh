@@ -4,13 +4,14 @@
 #
 #   bench/results.sh --data DIR [BUILD_DIR]
 #   bench/results.sh --data DIR --only direction [BUILD_DIR]     one of: best_case separation robustness direction speed
+#                                                                synth_cycles synth_speed synth_rate
 #
 # BUILD_DIR (build/release) is built with FACEPROBE_BUILD_BENCH=ON. Ends with 1 when a benchmark misses its bar; its section is
 # written all the same.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-sections=(best_case separation robustness direction speed)
+sections=(best_case separation robustness direction speed synth_cycles synth_speed synth_rate)
 data=
 only=
 build=$root/build/release
@@ -39,6 +40,9 @@ title_of() {
     robustness) echo "Many kinds of photo" ;;
     direction) echo "Known light directions on real faces" ;;
     speed) echo "Time and memory" ;;
+    synth_cycles) echo "Synthetic faces against Blender's Cycles" ;;
+    synth_speed) echo "Light on synthetic faces: cost by number of maps" ;;
+    synth_rate) echo "Synthetic faces: samples a second" ;;
   esac
 }
 
@@ -46,6 +50,8 @@ title_of() {
 command_of() {
   case $1 in
     speed) echo "bench/speed.sh BUILD" ;;
+    synth_speed) echo "BUILD/bin/bench_synth_speed" ;;
+    synth_rate) echo "bench/synth_rate.sh --data DIR BUILD" ;;
     *) echo "BUILD/bin/bench_$1 --data DIR" ;;
   esac
 }
@@ -53,6 +59,8 @@ command_of() {
 run_section() {
   case $1 in
     speed) "$root/bench/speed.sh" "$build" ;;
+    synth_speed) "$build/bin/bench_synth_speed" ;;
+    synth_rate) "$root/bench/synth_rate.sh" --data "$data" "$build" ;;
     *) "$build/bin/bench_$1" --data "$data" ;;
   esac
 }

@@ -33,9 +33,11 @@ void add_inputs(CLI::App& command, SharedOptions& options) {
 }
 
 void add_face_options(CLI::App& command, SharedOptions& options) {
-  command.add_option("--separator", options.separator, "highlight separator: net (trained), or tan, yang, shen (classical)")
+  command
+      .add_option("--separator", options.separator, "highlight separator: net (trained), or tan, yang, shen (classical)")
       ->capture_default_str();
-  command.add_option("--weights", options.weights, "weights of the network in place of those that come with the program");
+  command.add_option("--weights", options.weights,
+                     "weights of the network in place of those that come with the program");
   command.add_option(
       "--landmarks", options.landmarks,
       "x1,y1,... in pixels instead of detection: 5 points (eyes left to right, nose tip, mouth corners) or 68");
@@ -106,7 +108,8 @@ pipeline::EstimateOptions estimate_options(const SharedOptions& options) {
   if (const std::string fault = options.limits.validate(); !fault.empty()) throw Error(ExitCode::kUsage, fault);
   pipeline::EstimateOptions out;
   if (options.separator == "net") {
-    out.highlight_weights = options.weights.empty() ? io::data_file("highlight.safetensors") : std::filesystem::path(options.weights);
+    out.highlight_weights =
+        options.weights.empty() ? io::data_file("highlight.safetensors") : std::filesystem::path(options.weights);
   } else {
     out.separator = highlight::separator_from_name(options.separator);
     if (!options.weights.empty())

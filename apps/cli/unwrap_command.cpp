@@ -37,7 +37,7 @@ synth::HeadModel load_one_head(const std::string& path) {
 
 // Where one of several textures goes: OUTPUT/NAME.png, or OUTPUT itself when that is a picture's name.
 std::filesystem::path texture_path(const Options& options, const std::string& input) {
-  const std::filesystem::path output = options.output;
+  std::filesystem::path output = options.output;
   if (output.extension() == ".png") return output;
   return output / (std::filesystem::path(input).stem().string() + ".png");
 }

@@ -71,8 +71,7 @@ std::vector<std::string> read_names(const std::filesystem::path& path, std::size
   const std::vector<std::byte> bytes = io::read_file(path, kMaxMetaBytes);
   const auto* text = reinterpret_cast<const char*>(bytes.data());
   try {
-    const auto names =
-        nlohmann::json::parse(text, text + bytes.size()).at("expression_names").get<std::vector<std::string>>();
+    auto names = nlohmann::json::parse(text, text + bytes.size()).at("expression_names").get<std::vector<std::string>>();
     if (names.size() == expressions) return names;
     refuse_input(quoted(path) + " names " + std::to_string(names.size()) + " expressions, and the arrays hold " +
                  std::to_string(expressions) + ".");

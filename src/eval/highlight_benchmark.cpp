@@ -37,6 +37,7 @@ struct Photo {
 // Evenly over the data set, with enough skin to judge by.
 std::vector<int> chosen(const synth::ShardReader& faces, int count) {
   std::vector<int> numbers;
+  numbers.reserve(static_cast<std::size_t>(count));
   const int taken = std::min(count, faces.sample_count());
   for (int i = 0; i < taken; ++i)
     numbers.push_back(static_cast<int>((static_cast<long long>(i) * faces.sample_count()) / taken));
@@ -88,6 +89,7 @@ ScoreTable measure_highlights(const synth::ShardReader& faces, const std::vector
   if (const std::string problem = options.validate(); !problem.empty()) throw Error(ExitCode::kUsage, problem);
   ScoreTable table;
   std::vector<std::string> tones;
+  tones.reserve(kSkinTones.size());
   for (const SkinTone tone : kSkinTones) tones.emplace_back(skin_tone_name(tone));
   table.order_labels("tone", tones);
   table.order_labels("clipped", {"none", "under 5 %", "5 % and more"});
@@ -123,6 +125,7 @@ ByteImage draw_highlights(const synth::ShardReader& faces, const std::vector<Hig
   for (const int number : chosen(faces, rows)) {
     const Photo photo(faces, number);
     std::vector<Image> columns = {photo.layers.linear, picture_times(photo.layers.highlight, 2.0F)};
+    columns.reserve(2 + methods.size());
     for (const HighlightMethod& method : methods)
       columns.push_back(picture_times(method.highlight(photo.layers.linear, photo.sample.clip, {}), 2.0F));
     const int width = photo.layers.linear.width();

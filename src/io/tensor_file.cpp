@@ -161,8 +161,7 @@ void to_float(std::span<const Half> from, std::span<float> to) {
   std::size_t i = 0;
 #ifdef __F16C__
   for (; i + 8 <= from.size(); i += 8) {
-    _mm256_storeu_ps(to.data() + i,
-                     _mm256_cvtph_ps(_mm_loadu_si128(reinterpret_cast<const __m128i*>(from.data() + i))));
+    _mm256_storeu_ps(to.data() + i, _mm256_cvtph_ps(_mm_loadu_si128(reinterpret_cast<const __m128i*>(from.data() + i))));
   }
 #endif
   for (; i < from.size(); ++i) to[i] = static_cast<float>(from[i]);

@@ -25,7 +25,8 @@ struct HighlightSeparator::Network {
     const int long_side = std::max(picture.width(), picture.height());
     const double scale = std::min(1.0, static_cast<double>(kLongSidePx) / long_side);
     const auto shrunk = [scale](int px) { return std::max(1, static_cast<int>(std::lround(scale * px))); };
-    const face::Crop copy{.x_px = 0, .y_px = 0, .scale = scale, .width = shrunk(picture.width()), .height = shrunk(picture.height())};
+    const face::Crop copy{
+        .x_px = 0, .y_px = 0, .scale = scale, .width = shrunk(picture.width()), .height = shrunk(picture.height())};
     const Image small = face::crop_picture(picture, copy);
     ByteImage where(skin.width(), skin.height(), 1);
     std::transform(skin.values().begin(), skin.values().end(), where.values().begin(),
@@ -55,14 +56,16 @@ struct HighlightSeparator::Network {
 HighlightSeparator::HighlightSeparator(const EstimateOptions& options)
     : classical_{.separator = options.separator, .threads = options.threads} {
   if (options.highlight_weights.empty()) return;
-  throw Error(ExitCode::kModel, "This build of Faceprobe has no networks (FACEPROBE_NET=OFF); choose a separator: tan, yang, shen.");
+  throw Error(ExitCode::kModel,
+              "This build of Faceprobe has no networks (FACEPROBE_NET=OFF); choose a separator: tan, yang, shen.");
 }
 
 #endif
 
 HighlightSeparator::~HighlightSeparator() = default;
 
-highlight::Layers HighlightSeparator::separate(const Image& picture, const ByteImage& flags, const ByteImage& skin) const {
+highlight::Layers HighlightSeparator::separate(const Image& picture, const ByteImage& flags,
+                                               const ByteImage& skin) const {
   return network_ ? network_->separate(picture, flags, skin) : highlight::separate(picture, skin, classical_);
 }
 

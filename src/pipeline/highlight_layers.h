@@ -14,6 +14,10 @@ class HighlightSeparator {
   // Throws Error(kModel): weights that cannot be read, or a build without networks.
   explicit HighlightSeparator(const EstimateOptions& options);
   ~HighlightSeparator();
+  HighlightSeparator(const HighlightSeparator&) = delete;
+  HighlightSeparator& operator=(const HighlightSeparator&) = delete;
+  HighlightSeparator(HighlightSeparator&&) = delete;
+  HighlightSeparator& operator=(HighlightSeparator&&) = delete;
 
   // picture: H x W x 3 linear crop of one face; flags: io::Photo::clipped in the crop; skin: H x W x 1, non-zero where to separate.
   highlight::Layers separate(const Image& picture, const ByteImage& flags, const ByteImage& skin) const;

@@ -27,9 +27,9 @@ void put(const TrainingPicture& picture, std::int64_t at, const Batch& batch) {
 }
 
 Batch empty_batch(std::int64_t count, int width, int height) {
+  // Memory as pictures have it, N x H x W x C; seen as N x C x H x W that is libtorch's channels-last format.
   const auto pictures = [&](int channels) {
-    return torch::zeros({count, channels, height, width},
-                        torch::TensorOptions().dtype(torch::kFloat).memory_format(torch::MemoryFormat::ChannelsLast));
+    return torch::zeros({count, height, width, channels}, torch::kFloat).permute({0, 3, 1, 2});
   };
   return {pictures(3), pictures(3), pictures(1), pictures(3), pictures(1)};
 }

@@ -49,6 +49,22 @@ TEST(BatchOrder, EachRoundHoldsEverySampleOnce) {
   EXPECT_EQ(samples_of_step(9, 7, 4, 20), samples_of_step(9, 7, 4, 20));
 }
 
+TEST(PlainBatch, HoldsThePicturesPixelByPixel) {
+  const DataFolder folder("plain", 24, 3);
+  const synth::ShardReader reader(folder.data());
+  const Batch batch = plain_batch(reader, {2, 0});
+  const TrainingPicture picture = plain_picture(reader, 0);
+  for (int y = 0; y < 24; ++y) {
+    for (int x = 0; x < 24; ++x) {
+      for (int c = 0; c < 3; ++c) {
+        ASSERT_EQ(batch.linear[1][c][y][x].item<float>(), picture.linear(x, y, c));
+        ASSERT_EQ(batch.highlight[1][c][y][x].item<float>(), picture.highlight(x, y, c));
+      }
+      ASSERT_EQ(batch.skin[1][0][y][x].item<float>(), static_cast<float>(picture.skin(x, y)));
+    }
+  }
+}
+
 TEST(BatchSource, GivesTheSameBatchesFromTheMiddleOn) {
   const DataFolder folder("source", 24, 10);
   const synth::ShardReader reader(folder.data());

@@ -16,8 +16,8 @@
 namespace faceprobe::synth {
 
 struct MapOptions {
-  int max_distant = 6;             // small bright lights taken out at most
-  float max_light_radius = 0.04F;  // radians: what is larger stays in the cells
+  int max_distant = 6;             // small bright lights taken out; the last one taken may pass this by six parts
+  float max_light_radius = 0.04F;  // radians: what is larger, up to two and a half times, is taken out in seven parts
   int nside = 32;                  // of the stored rest
 
   // Empty when usable, else a sentence that says which value is wrong.

@@ -63,6 +63,9 @@ DatasetReport generate_dataset(const Assets& assets, const Recipe& recipe, const
   report.state.samples_done = report.state.samples_found;
   if (progress) progress(report.state);
 
+  const int threads = options.threads > 0 ? options.threads : default_thread_count();
+  // Threads that would find no person of their own help with one.
+  const int threads_each = std::max(1, threads / std::max(1, static_cast<int>(missing.size())));
   // People differ in cost, so each worker takes the next one when it is free; no result depends on who takes which.
   std::atomic<std::size_t> next = 0;
   std::mutex mutex;  // guards report, failure and progress
@@ -74,7 +77,7 @@ DatasetReport generate_dataset(const Assets& assets, const Recipe& recipe, const
         if (at >= missing.size()) return;
         const int shard = missing[at];
         GenerateTimes times;
-        std::vector<ViewSamples> views = generate_person(assets, recipe, shard, 1, &times);
+        std::vector<ViewSamples> views = generate_person(assets, recipe, shard, threads_each, &times);
         keep_first(views, samples_of(recipe, shard));
         const auto write_start = std::chrono::steady_clock::now();
         writer.write(shard, views);
@@ -92,7 +95,6 @@ DatasetReport generate_dataset(const Assets& assets, const Recipe& recipe, const
       if (!failure) failure = std::current_exception();
     }
   };
-  const int threads = options.threads > 0 ? options.threads : default_thread_count();
   {
     std::vector<std::jthread> workers;
     const auto count = std::min(static_cast<std::size_t>(threads), missing.size());

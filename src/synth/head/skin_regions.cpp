@@ -67,7 +67,7 @@ struct Limits {
     brow_line = points({17, 18, 19, 20, 21});
     for (const Point& p : brow_line) brow.push_back(p + Point(0, 0.0035F * scale));
     brow.front().x() += 0.002F * scale;
-    for (auto p = brow_line.rbegin(); p != brow_line.rend(); ++p) brow.push_back(*p - Point(0, 0.0055F * scale));
+    for (std::size_t i = brow_line.size(); i-- > 0;) brow.push_back(brow_line[i] - Point(0, 0.0055F * scale));
 
     wing = half[31].x() + 0.005F * scale;
     nose_base = half[33].y();

@@ -3,11 +3,12 @@
 #include "faceprobe/core/angles.h"
 #include "faceprobe/core/color.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <optional>
+#include <vector>
 
 namespace faceprobe::synth {
 namespace {
@@ -21,7 +22,10 @@ struct Disc {
   double radius;
   double most_around;
 };
-constexpr std::array<Disc, 4> kDiscs = {{{0.4, 0.02}, {0.6, 0.02}, {0.8, 0.03}, {1.0, 0.15}}};
+constexpr std::array<Disc, 6> kDiscs = {{{0.4, 0.02}, {0.6, 0.02}, {0.8, 0.03}, {1.0, 0.15}, {1.6, 0.1}, {2.5, 0.1}}};
+// What is larger than one light may be, a lamp's shade or a softbox, becomes several: one in the middle and six around it.
+constexpr int kAround = 6;
+constexpr double kAroundAt = 0.68;  // of the disc's radius: the middle of the ring's area
 // The ring that is looked at as the surround reaches this much further than the disc, and at least two texels.
 constexpr double kRing = 1.6;
 
@@ -48,15 +52,16 @@ class Finder {
 
   FoundLights find(int max_count) {
     FoundLights found;
-    const double largest_disc = 2.0 * kPi * (1.0 - std::cos(max_radius_));
+    const double largest_disc = 2.0 * kPi * (1.0 - std::cos(kDiscs.back().radius * max_radius_));
     while (static_cast<int>(found.lights.size()) < max_count) {
       const std::size_t peak = brightest_left();
       if (peak >= luminance_.size()) break;
       // Even a full disc of this radiance would be too little: what follows is darker still.
       if (static_cast<double>(luminance_[peak]) * largest_disc < kLeastShare * total_) break;
       const auto width = static_cast<std::size_t>(rest_.width());
-      const std::optional<DistantLight> light = take(static_cast<int>(peak % width), static_cast<int>(peak / width));
-      if (light) add(*light, found.lights);
+      const std::vector<DistantLight> lights = take(static_cast<int>(peak % width), static_cast<int>(peak / width));
+      if (lights.size() == 1) add(lights.front(), found.lights);
+      if (lights.size() > 1) found.lights.insert(found.lights.end(), lights.begin(), lights.end());
     }
     found.rest = std::move(rest_);
     return found;
@@ -149,8 +154,9 @@ class Finder {
     return sum;
   }
 
-  // The light about a peak, taken out of the map; nothing when it is too large or too weak. Either way its place is done.
-  std::optional<DistantLight> take(int x, int y) {
+  // The light about a peak, taken out of the map, in one or several parts; nothing when it is too large or too weak. Either way its
+  // place is done.
+  std::vector<DistantLight> take(int x, int y) {
     const Eigen::Vector3d peak = rest_.direction(x, y).cast<double>();
     done_[index(x, y)] = 1;
     for (const Disc& tried : kDiscs) {
@@ -166,18 +172,46 @@ class Finder {
         for (const Texel& t : texels_within(centre, outer)) {
           (radians(angle_between_deg(t.direction, centre)) <= radius ? disc : ring).push_back(t);
         }
-        if (disc.empty() || ring.empty()) return std::nullopt;  // texels larger than lights
+        if (disc.empty() || ring.empty()) return {};  // texels larger than lights
         surround = median(ring);
         inside = excess(disc, luminance(surround.data()), &centre);
       }
       const double around = excess(ring, luminance(surround.data())) / area(ring);
       if (around > tried.most_around * inside / area(disc)) continue;
       for (const Texel& t : disc) done_[index(t.x, t.y)] = 1;
-      if (inside < kLeastShare * total_) return std::nullopt;
-      return cut(disc, surround, centre);
+      if (inside < kLeastShare * total_) return {};
+      return tried.radius > 1.0 ? cut_in_parts(disc, surround, centre, radius)
+                                : std::vector<DistantLight>{cut(disc, surround, centre)};
     }
     for (const Texel& t : texels_within(peak, 0.5 * max_radius_)) done_[index(t.x, t.y)] = 1;
-    return std::nullopt;
+    return {};
+  }
+
+  // Each part at its own centroid, so that the direction of the whole is kept.
+  std::vector<DistantLight> cut_in_parts(const std::vector<Texel>& disc, const Eigen::Vector3f& surround,
+                                         const Eigen::Vector3d& centre, double radius) {
+    std::vector<Eigen::Vector3d> middles = {centre};
+    const Eigen::Vector3d side = centre.unitOrthogonal();
+    const Eigen::Vector3d other = centre.cross(side);
+    for (int k = 0; k < kAround; ++k) {
+      const double angle = 2.0 * kPi * k / kAround;
+      const double away = std::tan(kAroundAt * radius);
+      middles.push_back((centre + away * (std::cos(angle) * side + std::sin(angle) * other)).normalized());
+    }
+    std::vector<std::vector<Texel>> parts(middles.size());
+    for (const Texel& t : disc) {
+      const auto nearest = std::max_element(middles.begin(), middles.end(), [&](const auto& a, const auto& b) {
+        return a.dot(t.direction) < b.dot(t.direction);
+      });
+      parts[static_cast<std::size_t>(nearest - middles.begin())].push_back(t);
+    }
+    std::vector<DistantLight> lights;
+    for (const std::vector<Texel>& part : parts) {
+      Eigen::Vector3d middle = centre;
+      if (part.empty() || excess(part, luminance(surround.data()), &middle) <= 0) continue;
+      lights.push_back(cut(part, surround, middle));
+    }
+    return lights;
   }
 
   DistantLight cut(const std::vector<Texel>& disc, const Eigen::Vector3f& surround, const Eigen::Vector3d& centre) {

@@ -51,7 +51,7 @@ void phone(const WardrobeSettings& settings, const Anatomy& a, Random& random, F
   MeshBuilder mesh;
   const Eigen::Matrix3f box = turn * Eigen::Vector3f(half_width, half_height, 0.0042F).asDiagonal();
   mesh.rounded_box(centre, box, 9.0F, 8);
-  const Eigen::Vector3f shell = draw_dye(random);
+  Eigen::Vector3f shell = draw_dye(random);
   mesh.colour([&](const Eigen::Vector3f&) { return shell; });
   const int cameras = mesh.vertex_count();
   const int count = 1 + random.below(3);
@@ -185,8 +185,8 @@ void cup(const WardrobeSettings& settings, const Anatomy& a, Random& random, Fig
   for (const Level& level : levels) {
     for (int i = 0; i < kAround; ++i) {
       const float angle = kTurn * static_cast<float>(i) / kAround;
-      points.push_back(rim - level.down * height * up +
-                       level.out * radius * (std::sin(angle) * across + std::cos(angle) * ahead));
+      points.emplace_back(rim - level.down * height * up +
+                          level.out * radius * (std::sin(angle) * across + std::cos(angle) * ahead));
     }
   }
   MeshBuilder mesh;
@@ -196,7 +196,7 @@ void cup(const WardrobeSettings& settings, const Anatomy& a, Random& random, Fig
   }
   std::vector<Eigen::Vector3f> outside(points);
   mesh.grid(outside, kAround, true);
-  const Eigen::Vector3f glaze = draw_dye(random);
+  Eigen::Vector3f glaze = draw_dye(random);
   const Eigen::Vector3f sleeve = draw_dye(random);
   mesh.colour([&](const Eigen::Vector3f& p) {
     const float down = (rim - p).dot(up) / height;
@@ -289,7 +289,7 @@ void add_mask(const WardrobeSettings& settings, const Anatomy& a, const SkinFiel
       if (pleated) room += 0.0014F * s * edge * (2.0F * (4.0F * v - std::floor(4.0F * v)) - 1.0F);
       room += 0.001F * s * noise(settings.seed + 2, Eigen::Vector3f(6.0F * u, 9.0F * v, 0));
       const float out_m = reach[static_cast<std::size_t>(r * kColumns + c)] + room;
-      points.push_back(Eigen::Vector3f(axis.x(), height_at(r, c), axis.z()) + out_m * outwards(c));
+      points.emplace_back(Eigen::Vector3f(axis.x(), height_at(r, c), axis.z()) + out_m * outwards(c));
     }
   }
   MeshBuilder mesh;
@@ -306,7 +306,7 @@ void add_mask(const WardrobeSettings& settings, const Anatomy& a, const SkinFiel
       const float ear_y = r > 2 ? a.ear_top - 0.003F * s : a.ear_bottom + 0.004F * s;
       const Eigen::Vector3f ear(side * (a.skull_radii.x() + 0.001F * s), ear_y, 0.6F * a.ear_front + 0.4F * a.ear_back);
       std::vector<Eigen::Vector3f> path;
-      for (int i = 0; i <= 12; ++i) path.push_back(from + (ear - from) * static_cast<float>(i) / 12.0F);
+      for (int i = 0; i <= 12; ++i) path.emplace_back(from + (ear - from) * static_cast<float>(i) / 12.0F);
       for (int i = 1; i < 10; ++i) field.push_out(path[static_cast<std::size_t>(i)], 0.0012F * s);
       mesh.tube(path, 0.0011F * s, 6);
     }

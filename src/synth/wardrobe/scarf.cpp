@@ -33,9 +33,10 @@ std::vector<Polar> face_opening(const Anatomy& a, const Eigen::Vector3f& centre,
   std::vector<Eigen::Vector3f> half = {{0, brow + forehead_m, front - 0.010F * s},
                                        {0.030F * s, brow + 0.95F * forehead_m, front - 0.018F * s},
                                        {0.054F * s, brow + 0.5F * forehead_m, front - 0.045F * s}};
-  for (const int i : {16, 14, 12, 10, 9}) half.push_back(a.landmark(i) + Eigen::Vector3f(0, -0.002F, 0.004F) * s);
-  half.push_back(a.landmark(8) + Eigen::Vector3f(0, -0.003F, -0.004F) * s);
+  for (const int i : {16, 14, 12, 10, 9}) half.emplace_back(a.landmark(i) + Eigen::Vector3f(0, -0.002F, 0.004F) * s);
+  half.emplace_back(a.landmark(8) + Eigen::Vector3f(0, -0.003F, -0.004F) * s);
   std::vector<Polar> knots;
+  knots.reserve(half.size());
   for (const Eigen::Vector3f& p : half) knots.push_back(polar_of(p - centre));
   knots.front().around = 0;
   knots.back().around = kTurn / 2;
@@ -108,7 +109,7 @@ void add_scarf(const WardrobeSettings& settings, const Anatomy& a, const SkinFie
       room += 0.0028F * s * smooth_step(0.02F, 0.15F, t) *
               noise(cloth.seed + 4, Eigen::Vector3f(5.0F * d.x(), 2.5F * d.y(), 9.0F * d.z() + 4.0F * std::abs(d.x())));
       if (r == 0) room = 0.0005F * s;
-      points.push_back(centre + d * (radius[static_cast<std::size_t>(r * kAround + i)] + room));
+      points.emplace_back(centre + d * (radius[static_cast<std::size_t>(r * kAround + i)] + room));
     }
   }
   mesh.grid(points, kAround, true);
