@@ -26,7 +26,7 @@ threads=$(nproc)
 synth() {  # COUNT VIEWS LIGHTS SIZE; the report in $work/report, the memory in kB in $work/memory
   rm -rf "$work/faces"
   /usr/bin/time -f %M -o "$work/memory" "$build/bin/faceprobe" -q synth --heads "$data/faces/ict_facekit" \
-    --skins "$data/faces/london_uv_textures" --maps "$data/hdri/dev" --seed 7 --count "$1" --views "$2" --lights "$3" --size "$4" \
+    --skins "$data/faces/london_uv_textures" --maps "$data/hdri/train" --seed 7 --count "$1" --views "$2" --lights "$3" --size "$4" \
     -o "$work/faces" --json >"$work/report"
 }
 # Numbers out of the one line of JSON.

@@ -143,7 +143,7 @@ void report(const Scene& scene, const View& view, int threads, double peak) {
   const auto cells = static_cast<int>(view.scene_transport.diffuse.cols());
   const double dense = 6.0 * static_cast<double>(cells) *
                        static_cast<double>(view.scene_transport.diffuse.rows() + view.view.specular.rows());
-  std::printf("\n## %d px\n\n%d fragments, %d vertex rows, %d cells\n\n", view.size, view.view.fragments.count(),
+  std::printf("\n### %d px\n\n%d fragments, %d vertex rows, %d cells\n\n", view.size, view.view.fragments.count(),
               static_cast<int>(view.scene_transport.diffuse.rows()), cells);
   std::printf(
       "| part | seconds |\n|---|---|\n| fragments | %.3f |\n| diffuse rows and bounce | %.3f |\n| specular rows | %.3f "

@@ -37,7 +37,7 @@ case_synth_refusals() {
   [ ! -e out ] || fail "a refusal left a folder"
   mkdir taken
   expect_exit 0 synth --count 1 "${few_faces[@]}" -o taken
-  expect_refused 6 "seed" synth --count 1 "${few_faces[@]}" --seed 5 -o taken
+  expect_refused 6 "count is 1 there and 2 here" synth --count 2 "${few_faces[@]}" -o taken
   expect_refused 3 "nowhere" synth unwrap "$photo" --head nowhere -o skins
   expect_refused 2 "--head" synth unwrap "$photo"
 }

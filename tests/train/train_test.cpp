@@ -118,7 +118,7 @@ TEST(TrainConfig, SaysWhatIsWrong) {
 TEST(TrainLog, HasALineForEachRowAndACurve) {
   std::vector<TrainRow> rows(3);
   for (std::size_t i = 0; i < 3; ++i)
-    rows[i] = {static_cast<std::int64_t>(50 * (i + 1)), 0.1 / (1.0 + i), 1e-3, 20, i == 2, {}};
+    rows[i] = {static_cast<std::int64_t>(50 * (i + 1)), 0.1 / (1.0 + static_cast<double>(i)), 1e-3, 20, i == 2, {}};
   rows[2].validation = {4, 5, 8, 9};
   const std::string csv = to_csv(rows);
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 4);

@@ -26,6 +26,8 @@ constexpr std::array<Disc, 6> kDiscs = {{{0.4, 0.02}, {0.6, 0.02}, {0.8, 0.03}, 
 // What is larger than one light may be, a lamp's shade or a softbox, becomes several: one in the middle and six around it.
 constexpr int kAround = 6;
 constexpr double kAroundAt = 0.68;  // of the disc's radius: the middle of the ring's area
+constexpr double kLeastSplitShare =
+    0.15;  // of the map's whole: seven rays a point are for what throws the picture's main shadow
 // The ring that is looked at as the surround reaches this much further than the disc, and at least two texels.
 constexpr double kRing = 1.6;
 
@@ -179,7 +181,7 @@ class Finder {
       const double around = excess(ring, luminance(surround.data())) / area(ring);
       if (around > tried.most_around * inside / area(disc)) continue;
       for (const Texel& t : disc) done_[index(t.x, t.y)] = 1;
-      if (inside < kLeastShare * total_) return {};
+      if (inside < (tried.radius > 1.0 ? kLeastSplitShare : kLeastShare) * total_) return {};
       return tried.radius > 1.0 ? cut_in_parts(disc, surround, centre, radius)
                                 : std::vector<DistantLight>{cut(disc, surround, centre)};
     }

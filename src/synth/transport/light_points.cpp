@@ -52,6 +52,13 @@ void find_neighbours(const Fragments& fragments, HairPoints& hair) {
     }
     hair.first_near.push_back(static_cast<int>(hair.near_point.size()));
   }
+  hair.traced.resize(static_cast<std::size_t>(hair.count()));
+  for (int p = 0; p < hair.count(); ++p) {
+    const auto begin = hair.near_point.begin() + hair.first_near[static_cast<std::size_t>(p)];
+    const auto end = hair.near_point.begin() + hair.first_near[static_cast<std::size_t>(p) + 1];
+    const bool alone = std::none_of(begin, end, [](int other) { return other % 2 == 0; });
+    hair.traced[static_cast<std::size_t>(p)] = p % 2 == 0 || alone ? 1 : 0;
+  }
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "synth/transport/hair.h"
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <vector>
 
 namespace faceprobe::synth {
@@ -30,6 +31,8 @@ struct HairPoints {
   std::vector<Strand> strand;
   // Points of the same hair in the pixels around, itself included: those of p are near_point[first_near[p]] .. [first_near[p + 1] - 1].
   std::vector<int> first_near, near_point;
+  // Those that rays are traced for: every second one, and those without any such beside them. The mean of a neighbourhood says as much.
+  std::vector<std::uint8_t> traced;
 
   int count() const { return static_cast<int>(index.size()); }
 };

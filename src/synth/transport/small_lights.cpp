@@ -100,16 +100,22 @@ void add_specular(const SurfacePoints& points, int first, const Beam& beam, cons
 
 void add_beam(const Scene& scene, const HairPoints& hairs, const Beam& beam, const Eigen::Vector3f& colour,
               Eigen::MatrixX3f& shading, Eigen::MatrixX3f& specular) {
-  const Eigen::ArrayXf share = trace(scene, hairs.origin, 0, beam, &hairs.near, [](int) { return true; });
+  const Eigen::ArrayXf share = trace(scene, hairs.origin, 0, beam, &hairs.near,
+                                     [&](int p) { return hairs.traced[static_cast<std::size_t>(p)] != 0; });
   Eigen::ArrayXf diffuse;
   Eigen::ArrayXf lobe;
   for (int p = 0; p < hairs.count(); ++p) {
     const auto i = static_cast<std::size_t>(p);
     float mean = 0;
-    for (int k = hairs.first_near[i]; k < hairs.first_near[i + 1]; ++k)
-      mean += share(hairs.near_point[static_cast<std::size_t>(k)]);
+    float count = 0;
+    for (int k = hairs.first_near[i]; k < hairs.first_near[i + 1]; ++k) {
+      const auto other = static_cast<std::size_t>(hairs.near_point[static_cast<std::size_t>(k)]);
+      if (hairs.traced[other] == 0) continue;
+      mean += share(static_cast<Eigen::Index>(other));
+      ++count;
+    }
     if (mean <= 0) continue;
-    mean *= beam.power(p) / static_cast<float>(hairs.first_near[i + 1] - hairs.first_near[i]);
+    mean *= beam.power(p) / count;
     hair_values(hairs.strand[i], beam.to_light.row(p), diffuse, lobe);
     shading.row(hairs.index[i]) += mean * diffuse(0) * colour.transpose();
     specular.row(hairs.index[i]) += mean * lobe(0) * colour.transpose();
