@@ -23,7 +23,7 @@ struct Options {
   train::TrainRun run;
 };
 
-// Set by an interrupt: the run is saved and ends.
+// Set by an interrupt: the run ends after the step at hand.
 std::atomic<bool> interrupted = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
 

@@ -64,7 +64,7 @@ struct TrainReport {
 
 struct TrainHooks {
   std::function<void(const TrainProgress&)> progress;  // at each row
-  std::function<bool()> stop;                          // asked at each step; true saves and ends
+  std::function<bool()> stop;                          // asked at each step; true ends the run, which goes on from its last save
   // Writes a picture into the run's folder; without it none are made.
   std::function<void(const std::filesystem::path&, const ByteImage&)> write_picture;
 };
@@ -76,7 +76,7 @@ TrainReport train_highlight(const TrainRun& run, const TrainHooks& hooks);
 // "step,loss,..." with one line a row.
 std::string to_csv(const std::vector<TrainRow>& rows);
 
-// The loss over the steps, both axes logarithmic below 100 steps apart, and the validation errors.
+// 960 x 840 x 3, sRGB: above the loss (logarithmic) over the steps, below the validation errors on skin (red) and whole pictures (blue).
 ByteImage draw_curves(const std::vector<TrainRow>& rows);
 
 }  // namespace faceprobe::train
