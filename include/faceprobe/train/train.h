@@ -64,7 +64,7 @@ struct TrainReport {
 
 struct TrainHooks {
   std::function<void(const TrainProgress&)> progress;  // at each row
-  std::function<bool()> stop;                          // asked at each step; true ends the run, which goes on from its last save
+  std::function<bool()> stop;  // asked at each step; true ends the run, which goes on from its last save
   // Writes a picture into the run's folder; without it none are made.
   std::function<void(const std::filesystem::path&, const ByteImage&)> write_picture;
 };
