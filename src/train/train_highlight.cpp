@@ -94,7 +94,6 @@ class Training {
         since = now();
       }
     }
-    if (stopped && !run_.repeat_batch && counted == 0) save();
     TrainReport result;
     result.rows = state_.rows;
     result.finished = !stopped;

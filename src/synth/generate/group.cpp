@@ -1,6 +1,7 @@
 #include "synth/generate/group.h"
 
 #include "faceprobe/core/angles.h"
+#include "synth/generate/turn.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,14 +20,6 @@ constexpr float kHeadMiddleY = -0.04F;  // from between the eyes down to the mid
 
 Random scene_random(const Recipe& recipe, int number) {
   return Random({recipe.seed, static_cast<std::uint64_t>(recipe.split), static_cast<std::uint64_t>(number), 0x6209});
-}
-
-Eigen::Matrix3f turn(double yaw, double pitch, double roll) {
-  using Axis = Eigen::AngleAxisf;
-  return (Axis(static_cast<float>(yaw), Eigen::Vector3f::UnitY()) *
-          Axis(static_cast<float>(pitch), Eigen::Vector3f::UnitX()) *
-          Axis(static_cast<float>(roll), Eigen::Vector3f::UnitZ()))
-      .toRotationMatrix();
 }
 
 void place(const Eigen::Isometry3f& pose, Figure& figure) {

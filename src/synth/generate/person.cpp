@@ -1,6 +1,7 @@
 #include "faceprobe/synth/person.h"
 
 #include "faceprobe/core/angles.h"
+#include "synth/generate/turn.h"
 
 #include <algorithm>
 
@@ -54,14 +55,6 @@ float face_height(const Head& head) {
     return std::max(0.05F, head.landmarks.middleRows(17, 10).col(1).mean() - head.landmarks(8, 1));
   }
   return 0.125F;
-}
-
-Eigen::Matrix3f turn(double yaw, double pitch, double roll) {
-  using Axis = Eigen::AngleAxisf;
-  return (Axis(static_cast<float>(yaw), Eigen::Vector3f::UnitY()) *
-          Axis(static_cast<float>(pitch), Eigen::Vector3f::UnitX()) *
-          Axis(static_cast<float>(roll), Eigen::Vector3f::UnitZ()))
-      .toRotationMatrix();
 }
 
 }  // namespace

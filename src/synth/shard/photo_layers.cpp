@@ -4,7 +4,6 @@
 #include "faceprobe/core/region.h"
 
 #include <algorithm>
-#include <array>
 
 namespace faceprobe::synth {
 namespace {
@@ -55,25 +54,19 @@ void fill_convex(const std::vector<Point>& hull, ByteImage& mask) {
 }  // namespace
 
 PhotoLayers photo_layers(const Sample& sample) {
-  static const std::array<float, 256> kDecoded = [] {
-    std::array<float, 256> table{};
-    for (std::size_t i = 0; i < table.size(); ++i) table[i] = linear_from_srgb(static_cast<float>(i) / 255.0F);
-    return table;
-  }();
   const int width = sample.photo.width();
   const int height = sample.photo.height();
-  PhotoLayers layers{Image(width, height, 3), Image(width, height, 3)};
+  PhotoLayers layers{decode_srgb(sample.photo), Image(width, height, 3)};
   for (std::size_t pixel = 0; pixel < sample.photo.pixel_count(); ++pixel) {
     const unsigned clip = sample.clip.data()[pixel];
     for (std::size_t c = 0; c < 3; ++c) {
       const std::size_t at = 3 * pixel + c;
-      const float light = kDecoded[sample.photo.data()[at]];
+      const float light = layers.linear.data()[at];
       const float highlight = std::max(0.0F, sample.highlight.data()[at]);
       const float diffuse = std::max(0.0F, sample.diffuse.data()[at]);
       const float whole = highlight + diffuse;
       const bool clipped = (clip >> c & 1U) != 0;
       const float own = clipped ? light - std::min(diffuse, light) : whole > 0 ? light * highlight / whole : 0.0F;
-      layers.linear.data()[at] = light;
       layers.highlight.data()[at] = own;
     }
   }
