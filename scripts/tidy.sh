@@ -26,5 +26,5 @@ if [ ${#patterns[@]} = 0 ]; then patterns=("/(src|apps)/"); fi
 cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_COMPILER=clang++ \
   -DCMAKE_EXPORT_COMPILE_COMMANDS=ON -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON \
   -DFACEPROBE_BUILD_TESTS=OFF -DFACEPROBE_BUILD_BENCH=OFF \
-  -DFACEPROBE_NET=$training -DFACEPROBE_SYNTH=$training >/dev/null
+  -DFACEPROBE_TRAIN=$training -DFACEPROBE_SYNTH=$training >/dev/null
 run-clang-tidy -quiet -p "$build" -j "${JOBS:-$(nproc)}" "${patterns[@]}"

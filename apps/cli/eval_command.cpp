@@ -4,7 +4,7 @@
 #include "faceprobe/highlight/separate.h"
 #include "faceprobe/io/atomic_file.h"
 #include "faceprobe/io/picture_file.h"
-#include "faceprobe/net/highlight_net.h"
+#include "faceprobe/net/torch_highlight_net.h"
 
 #include <spdlog/spdlog.h>
 #include <unistd.h>
@@ -33,12 +33,12 @@ eval::HighlightMethod classical(highlight::Separator separator, int threads) {
 }
 
 // NAME=FILE, or FILE, which is then its name.
-eval::HighlightMethod network(const std::string& named, const net::HighlightNetOptions& options) {
+eval::HighlightMethod network(const std::string& named, const net::TorchHighlightNetOptions& options) {
   const std::size_t equals = named.find('=');
   const std::string file = equals == std::string::npos ? named : named.substr(equals + 1);
   const std::string name =
       equals == std::string::npos ? std::filesystem::path(file).stem().string() : named.substr(0, equals);
-  auto net = std::make_shared<net::HighlightNet>(file, options);
+  auto net = std::make_shared<net::TorchHighlightNet>(file, options);
   return {name, [net](const Image& linear, const ByteImage& clip, const ByteImage& mask) {
             return net->highlight(linear, clip, mask);
           }};
@@ -77,7 +77,7 @@ int run(Options options) {
   for (const highlight::Separator separator :
        {highlight::Separator::kTan, highlight::Separator::kYang, highlight::Separator::kShen})
     methods.push_back(classical(separator, options.benchmark.threads));
-  const net::HighlightNetOptions net_options{.threads = options.benchmark.threads,
+  const net::TorchHighlightNetOptions net_options{.threads = options.benchmark.threads,
                                              .device = net::device_from_name(options.device)};
   for (const std::string& weights : options.weights) methods.push_back(network(weights, net_options));
   const bool terminal = isatty(STDERR_FILENO) != 0;

@@ -3,61 +3,56 @@
 #include "faceprobe/core/error.h"
 #include "faceprobe/core/parallel.h"
 #include "faceprobe/io/safetensors.h"
+#include "io/safetensors_header.h"
+#include "net/head.h"
 #include "net/model_info.h"
-#include "net/picture_tensors.h"
-#include "net/separator.h"
-#include "net/torch_device.h"
+#include "net/padded_picture.h"
+#include "net/unet_runner.h"
 
-#include <algorithm>
-#include <cmath>
-#include <stdexcept>
+// Of the OpenMP runtime that oneDNN brings. Declared here because clang has no omp.h without a runtime of its own.
+extern "C" int omp_get_max_threads();
+extern "C" void omp_set_num_threads(int);
 
 namespace faceprobe::net {
 namespace {
 
-void check_sizes(const Image& linear, const ByteImage& clip, const ByteImage& mask) {
-  if (!linear.empty() && linear.channels() != 3) {
-    throw std::invalid_argument("HighlightNet: the picture must have 3 channels, not " +
-                                std::to_string(linear.channels()));
+// OpenMP's number of threads belongs to the thread that asks, so nobody else sees it changed.
+class ThreadCount {
+ public:
+  explicit ThreadCount(int threads) : before_(omp_get_max_threads()) {
+    omp_set_num_threads(threads > 0 ? threads : default_thread_count());
   }
-  for (const ByteImage* flags : {&clip, &mask}) {
-    if (!flags->empty() && (!flags->same_size(linear) || flags->channels() != 1)) {
-      throw std::invalid_argument("HighlightNet: clip and mask must have one channel and the size of the picture");
-    }
-  }
-}
+  ~ThreadCount() { omp_set_num_threads(before_); }
+  ThreadCount(const ThreadCount&) = delete;
+  ThreadCount& operator=(const ThreadCount&) = delete;
 
-bool is_grey(const Image& picture) {
-  for (int y = 0; y < picture.height(); ++y) {
-    for (int x = 0; x < picture.width(); ++x) {
-      const float* rgb = picture.pixel(x, y);
-      if (rgb[0] != rgb[1] || rgb[1] != rgb[2]) return false;
-    }
-  }
-  return true;
-}
+ private:
+  int before_;
+};
 
-// The network's answer made to keep the promise of the header, whatever it was. `picture` is at least as large.
-void finish(Image& highlight, const Image& picture, const ByteImage& mask, bool grey) {
-  for (int y = 0; y < highlight.height(); ++y) {
-    for (int x = 0; x < highlight.width(); ++x) {
-      float* out = highlight.pixel(x, y);
-      if (!mask.empty() && mask(x, y) == 0) {
-        std::fill_n(out, 3, 0.0F);
-        continue;
-      }
-      if (grey) std::fill_n(out, 3, out[0] / 3 + out[1] / 3 + out[2] / 3);
-      for (int c = 0; c < 3; ++c) out[c] = std::isfinite(out[c]) ? std::clamp(out[c], 0.0F, picture(x, y, c)) : 0.0F;
-    }
+UNetRunner make_runner(const ModelInfo& info, const io::TensorFile& file) {
+  if (info.architecture != kUNetArchitecture) {
+    throw Error(ExitCode::kModel, "The weights are of a network " + io::quoted(info.architecture) +
+                                      "; highlights are taken off by unet. Use weights made for it.");
   }
+  const UNetOptions options = unet_options_from_json(info.options_json);
+  if (options.in_channels != kInputChannels || options.out_channels != kRawChannels) {
+    throw Error(ExitCode::kModel, "The weights are of a network with " + std::to_string(options.in_channels) +
+                                      " channels in and " + std::to_string(options.out_channels) +
+                                      " out; separating highlights takes 7 and 4. Use weights made for it.");
+  }
+  WeightList weights(file);
+  UNetRunner runner(options, weights);
+  weights.finish();
+  return runner;
 }
 
 }  // namespace
 
 struct HighlightNet::Impl {
-  Device device;
+  int threads;
   ModelInfo info;
-  Separator separator;
+  UNetRunner net;
 };
 
 std::string HighlightNetOptions::validate() const {
@@ -67,11 +62,10 @@ std::string HighlightNetOptions::validate() const {
 
 HighlightNet::HighlightNet(const std::filesystem::path& weights, const HighlightNetOptions& options) {
   if (const std::string problem = options.validate(); !problem.empty()) throw Error(ExitCode::kUsage, problem);
-  require_device(options.device);
   const io::TensorFile file = io::read_safetensors(weights);
-  const ModelInfo info = model_info(file, weights.string());
-  impl_ = std::make_unique<Impl>(Impl{options.device, info, make_separator(info, file, torch_device(options.device))});
-  torch::set_num_threads(options.threads > 0 ? options.threads : default_thread_count());
+  ModelInfo info = model_info(file, weights.string());
+  UNetRunner runner = make_runner(info, file);
+  impl_ = std::make_unique<Impl>(Impl{options.threads, std::move(info), std::move(runner)});
 }
 
 HighlightNet::HighlightNet(HighlightNet&&) noexcept = default;
@@ -79,19 +73,19 @@ HighlightNet& HighlightNet::operator=(HighlightNet&&) noexcept = default;
 HighlightNet::~HighlightNet() = default;
 
 const ModelInfo& HighlightNet::info() const { return impl_->info; }
-const Device& HighlightNet::device() const { return impl_->device; }
 
 Image HighlightNet::highlight(const Image& linear, const ByteImage& clip, const ByteImage& mask) const {
   check_sizes(linear, clip, mask);
   if (linear.empty()) return Image(linear.width(), linear.height(), 3);
-
-  const c10::InferenceMode inference;
-  PaddedPicture picture = pad_picture(linear, clip, mask, impl_->separator.multiple);
-  const auto on_device = [&](Image& image) { return tensor_view(image).to(torch_device(impl_->device)); };
-  const torch::Tensor result =
-      impl_->separator.highlight(on_device(picture.linear), on_device(picture.clip), on_device(picture.mask));
-  Image highlight = crop_to_picture(result, linear.width(), linear.height());
-  finish(highlight, picture.linear, mask, is_grey(picture.linear));
+  const ThreadCount threads(impl_->threads);
+  const PaddedPicture picture = pad_picture(linear, clip, mask, impl_->net.options().multiple());
+  const Image whole = highlight_of_raw(impl_->net(network_input(picture)), picture.linear);
+  Image highlight(linear.width(), linear.height(), 3);
+  for (int y = 0; y < highlight.height(); ++y) {
+    const auto from = whole.row(y).first(highlight.row(y).size());
+    std::copy(from.begin(), from.end(), highlight.row(y).begin());
+  }
+  keep_within(highlight, picture.linear, mask, is_grey(picture.linear));
   return highlight;
 }
 

@@ -1,19 +1,14 @@
 #include "pipeline/highlight_layers.h"
 
-#include "faceprobe/core/error.h"
 #include "faceprobe/face/geometry.h"
 #include "faceprobe/highlight/upsample.h"
-
-#ifdef FACEPROBE_HAS_NET
 #include "faceprobe/net/highlight_net.h"
-#endif
+
 
 #include <algorithm>
 #include <cmath>
 
 namespace faceprobe::pipeline {
-
-#ifdef FACEPROBE_HAS_NET
 
 struct HighlightSeparator::Network {
   net::HighlightNet net;
@@ -46,21 +41,6 @@ HighlightSeparator::HighlightSeparator(const EstimateOptions& options)
   const net::HighlightNetOptions net_options{.threads = options.deterministic ? 1 : options.threads};
   network_.reset(new Network{net::HighlightNet(options.highlight_weights, net_options), options.threads});
 }
-
-#else
-
-struct HighlightSeparator::Network {
-  highlight::Layers separate(const Image&, const ByteImage&, const ByteImage&) const { return {}; }
-};
-
-HighlightSeparator::HighlightSeparator(const EstimateOptions& options)
-    : classical_{.separator = options.separator, .threads = options.threads} {
-  if (options.highlight_weights.empty()) return;
-  throw Error(ExitCode::kModel,
-              "This build of Faceprobe has no networks (FACEPROBE_NET=OFF); choose a separator: tan, yang, shen.");
-}
-
-#endif
 
 HighlightSeparator::~HighlightSeparator() = default;
 

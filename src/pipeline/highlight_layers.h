@@ -11,7 +11,7 @@ namespace faceprobe::pipeline {
 
 class HighlightSeparator {
  public:
-  // Throws Error(kModel): weights that cannot be read, or a build without networks.
+  // Throws Error(kModel): weights that cannot be read.
   explicit HighlightSeparator(const EstimateOptions& options);
   ~HighlightSeparator();
   HighlightSeparator(const HighlightSeparator&) = delete;

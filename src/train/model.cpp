@@ -3,9 +3,9 @@
 #include "faceprobe/core/error.h"
 #include "faceprobe/net/model_file.h"
 
-#include "net/highlight_head.h"
-#include "net/mscr.h"
-#include "net/unet.h"
+#include "net/torch/highlight_head.h"
+#include "net/torch/mscr.h"
+#include "net/torch/unet.h"
 
 #include <nlohmann/json.hpp>
 

@@ -4,8 +4,8 @@
 #include "faceprobe/net/model_file.h"
 #include "faceprobe/train/train.h"
 
-#include "net/torch_device.h"
-#include "net/weights.h"
+#include "net/torch/torch_device.h"
+#include "net/torch/weights.h"
 #include "train/checkpoint.h"
 #include "train/loss.h"
 #include "train/model.h"

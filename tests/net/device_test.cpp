@@ -1,7 +1,7 @@
 #include "faceprobe/net/device.h"
 
 #include "net/fixtures.h"
-#include "net/torch_device.h"
+#include "net/torch/torch_device.h"
 
 namespace faceprobe::net {
 namespace {

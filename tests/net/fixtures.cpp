@@ -1,8 +1,8 @@
 #include "net/fixtures.h"
 
 #include "faceprobe/net/model_file.h"
-#include "net/mscr.h"
-#include "net/weights.h"
+#include "net/torch/mscr.h"
+#include "net/torch/weights.h"
 
 #include <unistd.h>
 #include <random>

@@ -3,7 +3,7 @@
 
 #include "faceprobe/core/error.h"
 #include "faceprobe/core/image.h"
-#include "net/unet.h"
+#include "net/torch/unet.h"
 
 #include <gtest/gtest.h>
 #include <torch/torch.h>

@@ -1,4 +1,4 @@
-#include "net/highlight_head.h"
+#include "net/torch/highlight_head.h"
 
 #include <gtest/gtest.h>
 #include <stdexcept>

@@ -1,4 +1,4 @@
-#include "net/unet.h"
+#include "net/torch/unet.h"
 
 #include "net/fixtures.h"
 

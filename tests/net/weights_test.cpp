@@ -1,9 +1,9 @@
-#include "net/weights.h"
+#include "net/torch/weights.h"
 
 #include "faceprobe/io/tensor_file.h"
 #include "faceprobe/net/model_file.h"
 #include "net/fixtures.h"
-#include "net/mscr.h"
+#include "net/torch/mscr.h"
 
 #include <fstream>
 

@@ -1,13 +1,12 @@
 #pragma once
 // Splits the highlight layer off a face's picture by a trained network. Unlike the classical separators (highlight/separate.h) it
-// works on grey photos and under coloured light. Give it a crop of one face: time and memory grow with the pixels (350 bytes for
-// each), and it was trained on faces only.
+// works on grey photos and under coloured light. Give it a crop of one face at about the size it was trained at (ModelInfo's
+// metadata); it was trained on faces only. Runs the U-Net, on the processor; torch_highlight_net.h has the rest.
 //
-//   const net::HighlightNet network("highlight.safetensors", {.threads = 0, .device = net::device_from_name("auto")});
+//   const net::HighlightNet network("models/highlight.safetensors", {.threads = 0});
 //   const Image highlight = network.highlight(crop, clip, mask);   // diffuse = crop - highlight
 
 #include "faceprobe/core/image.h"
-#include "faceprobe/net/device.h"
 #include "faceprobe/net/model_file.h"
 
 #include <filesystem>
@@ -17,18 +16,14 @@
 namespace faceprobe::net {
 
 struct HighlightNetOptions {
-  // Threads of the processor; 0 = all processors. libtorch has one such number per process: the network that was made last
-  // sets it for all. The last bits of a result may depend on it.
-  int threads = 0;
-  Device device = {};
+  int threads = 0;  // 0 = all processors; the result does not depend on it
 
   std::string validate() const;
 };
 
 class HighlightNet {
  public:
-  // Throws Error(kModel): the file is not there, damaged, or of another network; Error(kDevice): the device is not there;
-  // Error(kUsage): the options do not validate.
+  // Throws Error(kModel): the file is not there, damaged, or of another network; Error(kUsage): the options do not validate.
   explicit HighlightNet(const std::filesystem::path& weights, const HighlightNetOptions& options = {});
   HighlightNet(HighlightNet&&) noexcept;
   HighlightNet& operator=(HighlightNet&&) noexcept;
@@ -42,7 +37,6 @@ class HighlightNet {
   Image highlight(const Image& linear, const ByteImage& clip, const ByteImage& mask) const;
 
   const ModelInfo& info() const;
-  const Device& device() const;
 
  private:
   struct Impl;

@@ -107,7 +107,9 @@ void add_person_lobes(const Person& person, const Fragments& fragments, const Pi
   if (skin.pore_slope <= 0) return;
   const std::vector<int> rows = skin_among(own, fragments);
   const Eigen::MatrixX3f position = in_head_frame(person, fragments.position(rows, Eigen::all));
-  const Eigen::MatrixX3f normal = fragments.normal(rows, Eigen::all) * person.scene_from_head.linear();
+  // Apart from the product, which would copy the list of rows for every element.
+  const Eigen::MatrixX3f normal_scene = fragments.normal(rows, Eigen::all);
+  const Eigen::MatrixX3f normal = normal_scene * person.scene_from_head.linear();
   const Eigen::VectorXf footprint_m = fragments.depth_m(rows) / camera.focal_px;
   const PoreNormals pores = pore_normals(skin, position, normal, footprint_m);
   for (std::size_t k = 0; k < rows.size(); ++k) {

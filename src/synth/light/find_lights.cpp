@@ -49,6 +49,12 @@ class Finder {
         row += static_cast<double>(luminance_[index(x, y)]);
       }
       total_ += row * texel_solid_angle(y, map.width(), map.height());
+      const double theta = kPi * (y + 0.5) / map.height();
+      row_.emplace_back(std::sin(theta), std::cos(theta));
+    }
+    for (int x = 0; x < map.width(); ++x) {
+      const Eigen::Vector3d level = direction_from_uv({(static_cast<float>(x) + 0.5F) / static_cast<float>(map.width()), 0.5F}).cast<double>();
+      column_.emplace_back(level.x(), level.z());
     }
   }
 
@@ -87,6 +93,13 @@ class Finder {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(rest_.width()) + static_cast<std::size_t>(x);
   }
 
+  // EnvMap::direction from tables, because all texels about every peak are asked many times.
+  Eigen::Vector3d direction_of(int x, int y) const {
+    const Eigen::Vector2d& column = column_[static_cast<std::size_t>(x)];
+    const Eigen::Vector2d& row = row_[static_cast<std::size_t>(y)];
+    return {row.x() * column.x(), row.y(), row.x() * column.y()};
+  }
+
   std::size_t brightest_left() const {
     std::size_t best = luminance_.size();
     float most = 0;
@@ -102,6 +115,7 @@ class Finder {
   // Texels whose centres lie within `radius` of a direction.
   std::vector<Texel> texels_within(const Eigen::Vector3d& centre, double radius) const {
     std::vector<Texel> texels;
+    const double least_cosine = std::cos(radius);
     const int width = rest_.width();
     const int height = rest_.height();
     const double theta = std::acos(std::clamp(centre.y(), -1.0, 1.0));
@@ -116,8 +130,8 @@ class Finder {
       const int begin = static_cast<int>(std::floor(column)) - half;
       for (int i = 0; i < std::min(width, 2 * half + 1); ++i) {
         const int x = ((begin + i) % width + width) % width;
-        const Eigen::Vector3d direction = rest_.direction(x, y).cast<double>();
-        if (radians(angle_between_deg(direction, centre)) > radius) continue;
+        const Eigen::Vector3d direction = direction_of(x, y);
+        if (direction.dot(centre) < least_cosine) continue;
         texels.push_back({x, y, texel_solid_angle(y, width, height), direction});
       }
     }
@@ -159,11 +173,12 @@ class Finder {
   // The light about a peak, taken out of the map, in one or several parts; nothing when it is too large or too weak. Either way its
   // place is done.
   std::vector<DistantLight> take(int x, int y) {
-    const Eigen::Vector3d peak = rest_.direction(x, y).cast<double>();
+    const Eigen::Vector3d peak = direction_of(x, y);
     done_[index(x, y)] = 1;
     for (const Disc& tried : kDiscs) {
       const double radius = tried.radius * max_radius_;
       const double outer = std::max(kRing * radius, radius + 2.0 * texel_);
+      const double least_cosine = std::cos(radius);
       Eigen::Vector3d centre = peak;
       std::vector<Texel> disc, ring;
       Eigen::Vector3f surround;
@@ -172,7 +187,7 @@ class Finder {
         disc.clear();
         ring.clear();
         for (const Texel& t : texels_within(centre, outer)) {
-          (radians(angle_between_deg(t.direction, centre)) <= radius ? disc : ring).push_back(t);
+          (t.direction.dot(centre) >= least_cosine ? disc : ring).push_back(t);
         }
         if (disc.empty() || ring.empty()) return {};  // texels larger than lights
         surround = median(ring);
@@ -234,6 +249,8 @@ class Finder {
   std::vector<float> luminance_;
   std::vector<std::uint8_t> done_;  // looked at already
   double total_ = 0;                // luminance over the sphere
+  std::vector<Eigen::Vector2d> row_;     // sine and cosine of the angle from the pole
+  std::vector<Eigen::Vector2d> column_;  // x and z of directions on the equator
 };
 
 }  // namespace

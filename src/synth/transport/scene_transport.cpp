@@ -2,6 +2,7 @@
 #include "faceprobe/synth/transport.h"
 #include "synth/transport/bounce.h"
 #include "synth/transport/cell_set.h"
+#include "synth/transport/coarse_cells.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,28 +13,48 @@ namespace {
 
 constexpr int kWhole = 255;
 
-// Shares of the cells that one vertex sees. A ray through the middle of each cell first; where neighbours differ, the edge of
-// something is near and four rays decide.
+// Shares of the cells that one vertex sees. A ray through the middle of each coarse cell first; where neighbours differ, or the
+// horizon is near, one through each cell in it; and where those differ, the edge of something is near and four rays decide. What is
+// narrower than a coarse cell (7 degrees for nside 16) can hide between the first rays.
 class SkyView {
  public:
-  SkyView(const Scene& scene, const CellSet& cells) : scene_(scene), cells_(cells) {}
+  SkyView(const Scene& scene, const CellSet& cells, const CoarseCells& coarse)
+      : scene_(scene), cells_(cells), coarse_(coarse), coarse_free_(static_cast<std::size_t>(coarse.cells.count)) {}
 
   void look(const Eigen::Vector3f& vertex, const Eigen::Vector3f& normal, std::uint8_t* share) {
     origin_ = vertex + kRayOffset * normal;
     normal_ = normal;
     std::fill_n(share, cells_.count, std::uint8_t{0});
     height_ = (cells_.centre * normal).array();
+    coarse_height_ = (coarse_.cells.centre * normal).array();
     first_look(share);
     refine(share);
   }
 
  private:
   bool above(int cell) const { return height_(cell) > -std::sin(cells_.reach); }
+  bool coarse_above(int cell) const { return coarse_height_(cell) > std::sin(coarse_.cells.reach); }
 
   void first_look(std::uint8_t* share) {
     start();
-    for (const int cell : cells_.order) {
-      if (above(cell)) add(cell, cells_.centre.row(cell).transpose());
+    for (const int cell : coarse_.cells.order) {
+      if (coarse_above(cell)) add(cell, coarse_.cells.centre.row(cell).transpose());
+    }
+    trace();
+    for (std::size_t i = 0; i < rays_.size(); ++i) coarse_free_[static_cast<std::size_t>(cell_[i])] = free_[i];
+    start();
+    for (const int cell : coarse_.cells.order) {
+      const bool even = coarse_above(cell) && std::ranges::all_of(coarse_.around[static_cast<std::size_t>(cell)], [&](int o) {
+                          return coarse_above(o) && coarse_free_[static_cast<std::size_t>(o)] ==
+                                                        coarse_free_[static_cast<std::size_t>(cell)];
+                        });
+      for (const int child : coarse_.children[static_cast<std::size_t>(cell)]) {
+        if (even) {
+          share[child] = coarse_free_[static_cast<std::size_t>(cell)] != 0 ? kWhole : 0;
+        } else if (above(child)) {
+          add(child, cells_.centre.row(child).transpose());
+        }
+      }
     }
     trace();
     for (std::size_t i = 0; i < rays_.size(); ++i) share[cell_[i]] = free_[i] != 0 ? kWhole : 0;
@@ -72,7 +93,9 @@ class SkyView {
 
   const Scene& scene_;
   const CellSet& cells_;
-  Eigen::ArrayXf height_;
+  const CoarseCells& coarse_;
+  std::vector<std::uint8_t> coarse_free_;
+  Eigen::ArrayXf height_, coarse_height_;
   Eigen::Vector3f origin_, normal_;
   std::vector<ShadowRay> rays_;
   std::vector<int> cell_;
@@ -113,12 +136,13 @@ SceneTransport build_scene_transport(const Scene& scene, const std::vector<int>&
     transport.row_of_vertex[static_cast<std::size_t>(vertices[row])] = static_cast<int>(row);
   }
   const CellSet cells(options.nside);
+  const CoarseCells coarse(options.nside);
   const auto rows = static_cast<int>(vertices.size());
   const auto shares_of = [&](int row) { return static_cast<std::size_t>(row) * static_cast<std::size_t>(cells.count); };
   transport.visibility.resize(shares_of(rows));
   const Eigen::MatrixX3f normals = scene.normals()(vertices, Eigen::all);
   parallel_for(rows, options.threads, [&](int first, int last) {
-    SkyView sky(scene, cells);
+    SkyView sky(scene, cells, coarse);
     for (int row = first; row < last; ++row) {
       sky.look(scene.vertices().row(vertices[static_cast<std::size_t>(row)]).transpose(), normals.row(row).transpose(),
                transport.visibility.data() + shares_of(row));

@@ -116,12 +116,16 @@ class HairRows {
     parallel_for(count, threads, [&](int first, int last) {
       std::vector<ShadowRay> rays(static_cast<std::size_t>(probe_.cell_count()));
       for (int i = first; i < last; ++i) {
+        if (points_.traced[static_cast<std::size_t>(i)] == 0) continue;
         for (int p = 0; p < probe_.cell_count(); ++p) {
           rays[static_cast<std::size_t>(p)] = {points_.origin.row(i).transpose(), probe_.direction(p), points_.near(i)};
         }
         scene.visible(rays, seen_.row(i).data());
       }
     });
+    for (int i = 0; i < count; ++i) {
+      if (points_.traced[static_cast<std::size_t>(i)] == 0) seen_.row(i) = seen_.row(traced_beside(i));
+    }
   }
 
   void fill(int i, bool specular, float* out) const {
@@ -139,6 +143,13 @@ class HairRows {
   }
 
  private:
+  int traced_beside(int point) const {
+    for (int q = points_.first_near[static_cast<std::size_t>(point)];; ++q) {
+      const int other = points_.near_point[static_cast<std::size_t>(q)];
+      if (points_.traced[static_cast<std::size_t>(other)] != 0) return other;
+    }
+  }
+
   HairPoints points_;
   const CellSet& cells_;
   SphereGrid probe_;

@@ -1,15 +1,14 @@
 #pragma once
-// What goes into the small network and what its raw output means: the one place for both, used in training and inference.
+// What goes into the small network and what its raw output means, for training and in batches. net/head.h is the same for one picture.
 //
 //   torch::Tensor raw = unet(prepare_input(linear, clip, mask));
 //   torch::Tensor highlight = highlight_from_raw(raw, linear);
 
+#include "net/head.h"
+
 #include <torch/torch.h>
 
 namespace faceprobe::net {
-
-constexpr int kInputChannels = 7;  // encoded red, green, blue; clipped red, green, blue; face
-constexpr int kRawChannels = 4;    // amount; colour of the light red, green, blue
 
 // `linear`: N x 3 x H x W, light, finite; negative counts as 0. `clip`: N x 3 x H x W, 1 where the photo was clipped, else 0.
 // `mask`: N x 1 x H x W, 1 on the face. Flags of any type become that of `linear`. Result: N x 7 x H x W, every channel between

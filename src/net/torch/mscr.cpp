@@ -1,4 +1,4 @@
-#include "net/mscr.h"
+#include "net/torch/mscr.h"
 
 #include "net/option_reader.h"
 

@@ -1,4 +1,4 @@
-#include "net/weights.h"
+#include "net/torch/weights.h"
 
 #include "faceprobe/core/error.h"
 #include "faceprobe/io/tensor_file.h"

@@ -8,16 +8,6 @@
 
 namespace faceprobe::net {
 
-// The three inputs, as long and wide as the next multiples: the last row and column are repeated beyond the picture.
-struct PaddedPicture {
-  Image linear;  // 3 channels; NaN, infinity and what is below zero have become 0
-  Image clip;    // 3 channels of 0 and 1
-  Image mask;    // 1 channel of 0 and 1
-};
-// `linear`: H x W x 3, not empty. `clip`: H x W x 1, bits 0 to 2 are the channels; empty = nothing was clipped. `mask`: H x W x 1,
-// non-zero on the face; empty = everywhere.
-PaddedPicture pad_picture(const Image& linear, const ByteImage& clip, const ByteImage& mask, int multiple);
-
 // 1 x channels x height x width, channels-last; a view that is valid as long as the picture.
 torch::Tensor tensor_view(Image& picture);
 

@@ -1,17 +1,9 @@
-#include "net/highlight_head.h"
+#include "net/torch/highlight_head.h"
 
 #include <stdexcept>
 
 namespace faceprobe::net {
 namespace {
-
-constexpr double kGamma = 2.2;
-constexpr double kDarkest = 1e-6;  // keeps the slope of the encoding finite at black
-constexpr double kBrightest = 64;
-constexpr double kAmountOffset = -2;   // softplus(-2) = 0.127
-constexpr double kColourFloor = 1e-3;  // a colour stays defined where all three outputs are far below zero
-constexpr double kLargestRaw = 100;    // far beyond use; products of larger ones would overflow
-constexpr double kTiny = 1e-30;        // 0 / 0 becomes 0
 
 void require_channels(const torch::Tensor& tensor, int channels, const char* what) {
   if (tensor.dim() != 4 || tensor.size(1) != channels) {
@@ -28,7 +20,7 @@ torch::Tensor luminance(const torch::Tensor& light) {
 // nothing overflows, and the result is at most the smaller in floating point too.
 torch::Tensor smooth_min(const torch::Tensor& b, const torch::Tensor& light) {
   const torch::Tensor smaller = torch::minimum(b, light);
-  const torch::Tensor ratio = smaller / (torch::maximum(b, light) + kTiny);
+  const torch::Tensor ratio = smaller / (torch::maximum(b, light) + Head::kTiny);
   return smaller / (1 + ratio.square().square()).sqrt().sqrt();
 }
 
@@ -38,7 +30,7 @@ torch::Tensor prepare_input(const torch::Tensor& linear, const torch::Tensor& cl
   require_channels(linear, 3, "the picture");
   require_channels(clip, 3, "the clip flags");
   require_channels(mask, 1, "the mask");
-  const torch::Tensor encoded = linear.clamp(kDarkest, kBrightest).pow(1 / kGamma);
+  const torch::Tensor encoded = linear.clamp(Head::kDarkest, Head::kBrightest).pow(1 / Head::kGamma);
   return torch::cat({encoded, clip.to(linear.scalar_type()), mask.to(linear.scalar_type())}, 1) - 0.5;
 }
 
@@ -47,9 +39,9 @@ torch::Tensor highlight_from_raw(const torch::Tensor& raw, const torch::Tensor& 
   require_channels(linear, 3, "the picture");
   const torch::Tensor light = linear.clamp_min(0);
   // Mixed precision ends here: the bound holds only in the picture's own.
-  const torch::Tensor full = raw.to(linear.scalar_type()).clamp(-kLargestRaw, kLargestRaw);
-  const torch::Tensor amount = torch::softplus(full.narrow(1, 0, 1) + kAmountOffset);
-  const torch::Tensor unscaled = torch::softplus(full.narrow(1, 1, 3)) + kColourFloor;
+  const torch::Tensor full = raw.to(linear.scalar_type()).clamp(-Head::kLargestRaw, Head::kLargestRaw);
+  const torch::Tensor amount = torch::softplus(full.narrow(1, 0, 1) + Head::kAmountOffset);
+  const torch::Tensor unscaled = torch::softplus(full.narrow(1, 1, 3)) + Head::kColourFloor;
   const torch::Tensor colour = unscaled / unscaled.mean(1, true);
   return smooth_min(luminance(light) * amount * colour, light);
 }

@@ -1,11 +1,11 @@
-#include "net/separator.h"
+#include "net/torch/separator.h"
 
 #include "faceprobe/core/error.h"
 #include "io/safetensors_header.h"
-#include "net/highlight_head.h"
-#include "net/mscr.h"
-#include "net/unet.h"
-#include "net/weights.h"
+#include "net/torch/highlight_head.h"
+#include "net/torch/mscr.h"
+#include "net/torch/unet.h"
+#include "net/torch/weights.h"
 
 namespace faceprobe::net {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 // The small network of the highlight separation: an encoder and a decoder with skips, fast enough for a processor. It puts
-// out raw numbers; highlight_head.h makes light of them.
+// out raw numbers; highlight_head.h makes light of them. For training; src/net/unet_runner.h is the same network without libtorch.
 //
 // The picture is first folded 2 x 2 into channels, so nothing is lost and every convolution runs at half size or below. Level i
 // has widths[i] channels at 1 / 2^(i+1) of the size. Sizes grow by repeating pixels before a convolution, never by a
@@ -9,24 +9,12 @@
 //   UNet net(UNetOptions{});
 //   torch::Tensor raw = net(input);   // N x in x H x W -> N x out x H x W; H, W multiples of net->multiple()
 
+#include "net/unet_options.h"
+
 #include <torch/torch.h>
-#include <string>
 #include <vector>
 
 namespace faceprobe::net {
-
-struct UNetOptions {
-  int in_channels = 7;
-  int out_channels = 4;
-  std::vector<int> widths = {32, 64, 96, 128, 160};
-  int convs_per_level = 2;  // 3x3 convolutions of a level on either side, its change of size included
-
-  std::string validate() const;
-  bool operator==(const UNetOptions&) const = default;
-};
-std::string options_json(const UNetOptions& options);
-// Throws Error(kModel).
-UNetOptions unet_options_from_json(const std::string& text);
 
 // 3x3 convolution, group norm, SiLU. The norm takes its statistics over one whole picture and none over the batch, so training
 // on batches of any size and inference agree; the price is that crops should frame a face as they did in training.
