@@ -1,4 +1,4 @@
-// bench_direction --data DIR [--every N] [--set yale|london]: how well known light directions come back from real faces.
+// bench_direction --data DIR [--every N] [--set yale|london] [--weights FILE]: how well known light directions come back from real faces.
 // DIR/real/yaleB holds faces under one flash each, whose direction the database gives; DIR/real/portraits/london the same three
 // studio lights on every person, measured from the reflections in their eyes. Prints one Markdown table per set.
 
@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
   std::string data;
   std::string set = "all";
   int every = 3;
+  std::string weights;
   app.add_option("--data", data, "data folder (docs/data.md)")->required();
   app.add_option("--every", every, "use every n-th flash picture and every n-th person only")
       ->capture_default_str()
@@ -23,6 +24,7 @@ int main(int argc, char** argv) {
   app.add_option("--set", set, "yale, london or all")
       ->capture_default_str()
       ->check(CLI::IsMember({"yale", "london", "all"}));
+  app.add_option("--weights", weights, "weights of the highlight network in place of those that come with the program");
   CLI11_PARSE(app, argc, argv);
   try {
     const std::filesystem::path real = std::filesystem::path(data) / "real";
@@ -32,9 +34,9 @@ int main(int argc, char** argv) {
       if (!std::filesystem::is_directory(real / folder)) {
         std::printf("real/%s is not in the data folder; skipped.\n", folder);
       } else if (yale) {
-        faceprobe::bench::report_yale(real / folder, every);
+        faceprobe::bench::report_yale(real / folder, every, weights);
       } else {
-        faceprobe::bench::report_london(real / folder, every);
+        faceprobe::bench::report_london(real / folder, every, weights);
       }
     }
   } catch (const std::exception& error) {

@@ -1,7 +1,6 @@
 #include "shared_options.h"
 
 #include "faceprobe/core/error.h"
-#include "faceprobe/io/data_files.h"
 
 #include <charconv>
 #include <cmath>
@@ -108,10 +107,10 @@ pipeline::EstimateOptions estimate_options(const SharedOptions& options) {
   if (const std::string fault = options.limits.validate(); !fault.empty()) throw Error(ExitCode::kUsage, fault);
   pipeline::EstimateOptions out;
   if (options.separator == "net") {
-    out.highlight_weights =
-        options.weights.empty() ? io::data_file("highlight.safetensors") : std::filesystem::path(options.weights);
+    out.classical.reset();
+    out.highlight_weights = options.weights;
   } else {
-    out.separator = highlight::separator_from_name(options.separator);
+    out.classical = highlight::separator_from_name(options.separator);
     if (!options.weights.empty())
       throw Error(ExitCode::kUsage, "--weights are the network's; --separator " + options.separator + " takes none.");
   }

@@ -13,7 +13,7 @@ namespace faceprobe::cli {
 
 struct SharedOptions {
   std::vector<std::string> inputs;
-  std::string separator{highlight::separator_name(pipeline::EstimateOptions{}.separator)};
+  std::string separator = pipeline::EstimateOptions{}.separator_name();
   std::string weights;
   std::string solver{lighting::solver_name(pipeline::EstimateOptions{}.solve.solver)};
   std::string landmarks;

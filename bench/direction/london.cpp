@@ -102,16 +102,18 @@ struct Setting {
   pipeline::Estimator estimator;
 };
 
-std::vector<Setting> settings() {
+std::vector<Setting> settings(const std::filesystem::path& weights) {
   std::vector<Setting> all;
   for (const Solver solver : {Solver::kTransport, Solver::kPaper}) {
-    for (const Separator separator : {Separator::kTan, Separator::kYang, Separator::kShen}) {
+    for (const std::optional<Separator> classical :
+         {std::optional<Separator>(), std::optional(Separator::kTan), std::optional(Separator::kYang),
+          std::optional(Separator::kShen)}) {
       pipeline::EstimateOptions options;
       options.solve.solver = solver;
-      options.separator = separator;
-      all.push_back(
-          {std::string(lighting::solver_name(solver)) + ", " + std::string(highlight::separator_name(separator)),
-           pipeline::Estimator(options)});
+      options.classical = classical;
+      options.highlight_weights = weights;
+      all.push_back({std::string(lighting::solver_name(solver)) + ", " + options.separator_name(),
+                     pipeline::Estimator(options)});
     }
   }
   return all;
@@ -134,10 +136,10 @@ std::optional<Measured> measure(const pipeline::Estimator& estimator, const io::
 
 }  // namespace
 
-void report_london(const std::filesystem::path& folder, int every) {
+void report_london(const std::filesystem::path& folder, int every, const std::filesystem::path& weights) {
   const std::vector<Eigen::Vector3d> truth = read_lights(folder / "lights_from_catchlights.json");
   const std::vector<Person> people = every_nth(people_in(folder), every);
-  const std::vector<Setting> all = settings();
+  const std::vector<Setting> all = settings(weights);
   // What no look at the photo gives: a light straight ahead.
   const Measured ahead{{Eigen::Vector3d::UnitZ()}, Eigen::Vector3d::UnitZ()};
   const std::vector<Measured> aheads(people.size(), ahead);

@@ -103,23 +103,28 @@ void print(const std::vector<Row>& rows, std::size_t pictures) {
 
 struct Setting {
   lighting::Solver solver;
+  std::optional<highlight::Separator> classical;
   bool linear;
   std::string name;
 };
 
 }  // namespace
 
-void report_yale(const std::filesystem::path& folder, int every) {
+void report_yale(const std::filesystem::path& folder, int every, const std::filesystem::path& weights) {
   const std::vector<Picture> pictures = every_nth(pictures_of(folder), every);
   Row straight{"straight ahead, no estimate", {}, {}};
   for (const Picture& picture : pictures) straight.add(picture, Eigen::Vector3d::UnitZ());
   std::vector<Row> rows = {straight};
   int faceless = 0;
   for (const Setting& setting :
-       {Setting{lighting::Solver::kTransport, true, "transport"}, Setting{lighting::Solver::kPaper, true, "paper"},
-        Setting{lighting::Solver::kTransport, false, "transport, codes taken for sRGB"}}) {
+       {Setting{lighting::Solver::kTransport, {}, true, "transport, net"},
+        Setting{lighting::Solver::kTransport, highlight::Separator::kYang, true, "transport, classical"},
+        Setting{lighting::Solver::kPaper, {}, true, "paper, net"},
+        Setting{lighting::Solver::kTransport, {}, false, "transport, net, codes taken for sRGB"}}) {
     pipeline::EstimateOptions options;
     options.solve.solver = setting.solver;
+    options.classical = setting.classical;
+    options.highlight_weights = weights;
     options.landmarks_px = fixed_landmarks();
     const pipeline::Estimator estimator(options);
     Row lamp{"single lamp by least squares" + std::string(setting.linear ? "" : ", codes taken for sRGB"), {}, {}};
@@ -140,14 +145,14 @@ void report_yale(const std::filesystem::path& folder, int every) {
         ++faceless;
       }
     }
-    if (setting.solver == lighting::Solver::kTransport) rows.push_back(std::move(lamp));
+    if (setting.classical || !setting.linear) rows.push_back(std::move(lamp));
     rows.push_back(std::move(main_light));
     rows.push_back(std::move(centroid));
   }
   std::printf(
       "### Yale B: one flash\n\nAngles in degrees between the estimate and the flash, %zu pictures with the flash up to"
-      " %.0f degrees off the camera axis; the last columns by that angle. The pictures are grey, so there is no"
-      " highlight layer. Their code values are taken for linear light unless the row says otherwise. Estimates that "
+      " %.0f degrees off the camera axis; the last columns by that angle. The pictures are grey, so"
+      " the classical separators find no highlights and all three give the same. Their code values are taken for linear light unless the row says otherwise. Estimates that "
       "found"
       " no face: %d.\n\n",
       pictures.size(), kMaxAxisDeg, faceless);

@@ -41,7 +41,9 @@ Crop face_crop(const Face& face, int photo_width, int photo_height, const Geomet
   return crop;
 }
 
-FaceGeometry rasterize(const Face& face, const Camera& camera, const CanonicalMesh& mesh, const Crop& crop) {
+namespace {
+
+std::vector<Fragment> fragments_of(const Face& face, const Camera& camera, const CanonicalMesh& mesh, const Crop& crop) {
   const Eigen::MatrixX3f& vertices = face.vertices_cam_m;
   Eigen::MatrixX2d points(vertices.rows(), 2);
   for (Eigen::Index i = 0; i < vertices.rows(); ++i) {
@@ -49,7 +51,25 @@ FaceGeometry rasterize(const Face& face, const Camera& camera, const CanonicalMe
     points.row(i) = crop.crop_from_photo(photo.x(), photo.y()).transpose();
   }
   const Eigen::VectorXd depths = -vertices.col(2).cast<double>();
-  const std::vector<Fragment> fragments = rasterize_triangles(points, depths, mesh.triangles, crop.width, crop.height);
+  return rasterize_triangles(points, depths, mesh.triangles, crop.width, crop.height);
+}
+
+}  // namespace
+
+ByteImage rasterize_regions(const Face& face, const Camera& camera, const CanonicalMesh& mesh, const Crop& crop) {
+  const std::vector<Fragment> fragments = fragments_of(face, camera, mesh, crop);
+  const std::vector<Region> regions = triangle_regions(mesh);
+  ByteImage out(crop.width, crop.height, 1);
+  for (std::size_t i = 0; i < fragments.size(); ++i) {
+    const int triangle = fragments[i].triangle;
+    if (triangle >= 0) out.data()[i] = static_cast<std::uint8_t>(regions[static_cast<std::size_t>(triangle)]);
+  }
+  return out;
+}
+
+FaceGeometry rasterize(const Face& face, const Camera& camera, const CanonicalMesh& mesh, const Crop& crop) {
+  const Eigen::MatrixX3f& vertices = face.vertices_cam_m;
+  const std::vector<Fragment> fragments = fragments_of(face, camera, mesh, crop);
   const Eigen::MatrixX3f normals = vertex_normals(vertices, mesh.triangles);
   const std::vector<Region> regions = triangle_regions(mesh);
 

@@ -56,7 +56,7 @@ FaceEstimate Estimator::Impl::analyse(const io::Photo& photo, const face::Camera
   out.clipped = face::crop_flags(photo.clipped, crop);
   watch.lap("geometry");
 
-  const ByteImage skin = skin_regions(out.geometry);
+  const ByteImage skin = skin_regions(out.geometry.region);
   out.layers = highlights.separate(out.picture, out.clipped, skin);
   watch.lap("highlights");
 
@@ -113,7 +113,7 @@ Estimate Estimator::estimate(const io::Photo& photo) const {
       static_cast<std::size_t>(std::max_element(out.faces.begin(), out.faces.end(),
                                                 [&](const auto& a, const auto& b) { return area(a) < area(b); }) -
                                out.faces.begin());
-  if (photo.grey && impl_->options.highlight_weights.empty()) {
+  if (photo.grey && impl_->options.classical) {
     out.warnings.emplace_back(
         impl_->options.solve.solver == lighting::Solver::kPaper
             ? "The photo is grey: the classical separators need colour and the paper's solver reads highlights only, "

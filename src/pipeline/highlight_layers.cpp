@@ -2,6 +2,7 @@
 
 #include "faceprobe/face/geometry.h"
 #include "faceprobe/highlight/upsample.h"
+#include "faceprobe/io/data_files.h"
 #include "faceprobe/net/highlight_net.h"
 
 
@@ -36,10 +37,12 @@ struct HighlightSeparator::Network {
 };
 
 HighlightSeparator::HighlightSeparator(const EstimateOptions& options)
-    : classical_{.separator = options.separator, .threads = options.threads} {
-  if (options.highlight_weights.empty()) return;
-  const net::HighlightNetOptions net_options{.threads = options.deterministic ? 1 : options.threads};
-  network_.reset(new Network{net::HighlightNet(options.highlight_weights, net_options), options.threads});
+    : classical_{.separator = options.classical.value_or(highlight::Separator::kYang), .threads = options.threads} {
+  if (options.classical) return;
+  const std::filesystem::path weights =
+      options.highlight_weights.empty() ? io::data_file("highlight.safetensors") : options.highlight_weights;
+  const net::HighlightNetOptions net_options{.threads = options.threads};
+  network_.reset(new Network{net::HighlightNet(weights, net_options), options.threads});
 }
 
 HighlightSeparator::~HighlightSeparator() = default;

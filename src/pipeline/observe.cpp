@@ -70,9 +70,9 @@ struct Patch {
 
 }  // namespace
 
-ByteImage skin_regions(const face::FaceGeometry& geometry) {
-  ByteImage skin(geometry.region.width(), geometry.region.height(), 1);
-  std::transform(geometry.region.values().begin(), geometry.region.values().end(), skin.values().begin(),
+ByteImage skin_regions(const ByteImage& region) {
+  ByteImage skin(region.width(), region.height(), 1);
+  std::transform(region.values().begin(), region.values().end(), skin.values().begin(),
                  [](std::uint8_t r) {
                    // The ten skin regions count from 1.
                    return r <= kSkinRegionCount ? r : std::uint8_t{0};

@@ -11,7 +11,7 @@ namespace faceprobe::pipeline {
 lighting::Observations observe(const face::FaceGeometry& geometry, const Image& highlight, const Image& shading,
                                const ByteImage& flags, int max_patches, int threads);
 
-// Region where the geometry has skin, 0 elsewhere: crop x 1.
-ByteImage skin_regions(const face::FaceGeometry& geometry);
+// `region` (face::FaceGeometry) where it is skin, 0 elsewhere: crop x 1.
+ByteImage skin_regions(const ByteImage& region);
 
 }  // namespace faceprobe::pipeline

@@ -43,7 +43,7 @@ std::string EstimateOptions::validate() const {
 }
 
 std::string EstimateOptions::separator_name() const {
-  return highlight_weights.empty() ? std::string(highlight::separator_name(separator)) : "net";
+  return classical ? std::string(highlight::separator_name(*classical)) : "net";
 }
 
 }  // namespace faceprobe::pipeline

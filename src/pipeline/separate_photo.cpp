@@ -23,6 +23,14 @@ face::Crop full_crop(const face::Face& face, int width, int height) {
           .height = std::max(0, bottom - top)};
 }
 
+template <class T>
+BasicImage<T> cut(const BasicImage<T>& photo, int left, int top, const face::Crop& crop) {
+  BasicImage<T> out(crop.width, crop.height, photo.channels());
+  for (int y = 0; y < crop.height; ++y)
+    std::copy_n(photo.pixel(left, top + y), out.row(y).size(), out.pixel(0, y));
+  return out;
+}
+
 }  // namespace
 
 Error no_face(const io::Photo& photo, const EstimateOptions& options) {
@@ -42,15 +50,11 @@ highlight::Layers Estimator::separate(const io::Photo& photo) const {
   for (const face::Face& face : faces) {
     const face::Crop crop = full_crop(face, photo.linear.width(), photo.linear.height());
     if (crop.width == 0 || crop.height == 0) continue;
-    const face::FaceGeometry geometry = face::rasterize(face, camera, impl_->mesh, crop);
     const int left = static_cast<int>(crop.x_px);
     const int top = static_cast<int>(crop.y_px);
-    Image picture(crop.width, crop.height, 3);
-    for (int y = 0; y < crop.height; ++y) {
-      std::copy_n(photo.linear.pixel(left, top + y), 3 * crop.width, picture.pixel(0, y));
-    }
-    const ByteImage skin = skin_regions(geometry);
-    const highlight::Layers layers = impl_->highlights.separate(picture, face::crop_flags(photo.clipped, crop), skin);
+    const Image picture = cut(photo.linear, left, top, crop);
+    const ByteImage skin = skin_regions(face::rasterize_regions(face, camera, impl_->mesh, crop));
+    const highlight::Layers layers = impl_->highlights.separate(picture, cut(photo.clipped, left, top, crop), skin);
     for (int y = 0; y < crop.height; ++y) {
       for (int x = 0; x < crop.width; ++x) {
         if (skin(x, y) == 0) continue;

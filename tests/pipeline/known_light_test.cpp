@@ -49,11 +49,11 @@ TEST(KnownLight, TheLampThatGoesInComesOut) {
 
 TEST(KnownLight, AlsoThroughSeparatorAndAlbedo) {
   const PosedFace posed = posed_face(kHeadYaw);
-  const ByteImage skin = skin_regions(posed.geometry);
+  const ByteImage skin = skin_regions(posed.geometry.region);
   for (const auto& [azimuth, elevation] : kLamps) {
     const Eigen::Vector3d truth = direction_from_angles(azimuth, elevation);
     const Image photo = testing::photograph(posed, light_up(posed, {{truth}}, 0.05F));
-    const highlight::Layers layers = highlight::separate(photo, skin, {.separator = EstimateOptions().separator});
+    const highlight::Layers layers = highlight::separate(photo, skin, {.separator = highlight::Separator::kYang});
     const Image albedo = lighting::albedo_picture(lighting::fit_albedo(layers.diffuse, skin, no_flags(posed)), skin);
     LitFace seen{layers.highlight, layers.diffuse};
     for (std::size_t i = 0; i < albedo.values().size(); ++i) seen.shading.values()[i] /= albedo.values()[i];

@@ -52,7 +52,7 @@ TEST(Report, HoldsTheDocumentedFields) {
   EXPECT_EQ(report.at("photo").at("sha256").get<std::string>().size(), 64U);
   EXPECT_EQ(report.at("photo").at("width_px"), portrait().linear.width());
   EXPECT_GT(report.at("camera").at("focal_px").get<double>(), 1);
-  EXPECT_EQ(report.at("options").at("separator"), std::string(highlight::separator_name(EstimateOptions().separator)));
+  EXPECT_EQ(report.at("options").at("separator"), EstimateOptions().separator_name());
   EXPECT_EQ(report.at("options").at("solver"), "transport");
   EXPECT_EQ(report.at("options").at("map_size_px"), json({256, 128}));
   EXPECT_EQ(report.at("largest_face"), 0);
@@ -118,7 +118,7 @@ TEST(Outputs, SeveralFacesGetAFolderEach) {
 
 TEST(Outputs, ProvenanceNamesWhatMadeTheFile) {
   EstimateOptions options;
-  options.separator = highlight::Separator::kYang;
+  options.classical = highlight::Separator::kYang;
   options.solve.solver = lighting::Solver::kPaper;
   const auto attributes = provenance(portrait(), options);
   EXPECT_EQ(attributes.at("faceprobe:version"), std::string(kVersion));

@@ -51,6 +51,8 @@ Crop face_crop(const Face& face, int photo_width, int photo_height, const Geomet
 
 // Normals are averaged at the vertices (weighted by angle) and interpolated perspective-correctly.
 FaceGeometry rasterize(const Face& face, const Camera& camera, const CanonicalMesh& mesh, const Crop& crop);
+// Its region alone, for large crops.
+ByteImage rasterize_regions(const Face& face, const Camera& camera, const CanonicalMesh& mesh, const Crop& crop);
 
 // The photo resampled into the crop: area average when smaller, bilinear when larger; black outside the photo.
 Image crop_picture(const Image& linear, const Crop& crop);

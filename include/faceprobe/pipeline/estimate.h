@@ -35,9 +35,9 @@ namespace faceprobe::pipeline {
 
 struct EstimateOptions {
   face::FinderOptions finder;
-  // Weights of the highlight network (net/highlight_net.h; models/README.md). Empty: the classical `separator`.
-  std::filesystem::path highlight_weights;
-  highlight::Separator separator = highlight::Separator::kYang;  // smoothest on skin; see docs/results.md
+  // How highlights are taken off: by the trained network (net/highlight_net.h) where unset, else by a classical separator.
+  std::optional<highlight::Separator> classical = highlight::Separator::kYang;
+  std::filesystem::path highlight_weights;  // of the network; empty = those that come with the program (models/README.md)
   lighting::SolveOptions solve;
   lighting::MainLightOptions main_lights;
   // Focal length in pixels of the photo; unset = from EXIF, else a 50 mm lens on a 36 x 24 mm frame (a common portrait view).
