@@ -9,12 +9,12 @@ failures=0
 
 clean_tree() {
   rm -rf "${tree:?}"/*
-  mkdir -p "$tree"/include/faceprobe/{core,io,lighting} "$tree"/src/{core,io,net,face,lighting,pipeline} "$tree/apps/cli"
+  mkdir -p "$tree"/include/faceprobe/{core,io,lighting} "$tree"/src/{core,io,net/torch,face,lighting,pipeline} "$tree/apps/cli"
   echo '#include <vector>' >"$tree/include/faceprobe/core/image.h"
   echo '#include "faceprobe/core/image.h"' >"$tree/include/faceprobe/io/photo.h"
   printf '%s\n' '#include "faceprobe/io/photo.h"' '#include "io/header.h"' '#include <cmath>' >"$tree/src/io/photo.cpp"
   printf '%s\n' '// #include "faceprobe/pipeline/estimate.h" in a comment is no include' >"$tree/src/core/image.cpp"
-  echo '#include <torch/torch.h>' >"$tree/src/net/unet.cpp"
+  echo '#include <torch/torch.h>' >"$tree/src/net/torch/unet.cpp"
   printf '%s\n' '#include "cli/report.h"' '#include "faceprobe/pipeline/estimate.h"' >"$tree/apps/cli/main.cpp"
 }
 
@@ -44,6 +44,7 @@ expect "a sideways arrow" "lighting may not include face" src/lighting/side.cpp 
 expect "a library that includes an app" "pipeline may not include apps" src/pipeline/up.cpp '#include "apps/report.h"'
 expect "an internal header in a public one" "internal" include/faceprobe/io/leak.h '#include "io/header.h"'
 expect "torch in lighting" "torch" src/lighting/net.cpp '#include <torch/torch.h>'
+expect "torch in what runs networks" "torch" src/net/net.cpp '#include <torch/torch.h>'
 expect "a relative include" "relative" src/lighting/relative.cpp '#include "../face/face.h"'
 expect "a room that is not in the plan" "not a room" src/io/other.cpp '#include "faceprobe/cellar/wine.h"'
 mapfile -t lines < <(seq -f '// %g' 601)
