@@ -1,10 +1,10 @@
 // bench_highlight_net --data DIR [--weights FILE]: what the highlight network costs. Loading, a crop of a face, and the layers of whole
 // photos (DIR/real/portraits/london_fullres, enlarged to 12 MP) at their full size, less the search for the face. Prints a Markdown table.
 
+#include "faceprobe/net/highlight_net.h"
 #include "faceprobe/face/geometry.h"
 #include "faceprobe/io/data_files.h"
 #include "faceprobe/io/photo.h"
-#include "faceprobe/net/highlight_net.h"
 #include "faceprobe/pipeline/estimate.h"
 #include "support/photos.h"
 #include "support/statistics.h"

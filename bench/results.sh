@@ -3,23 +3,28 @@
 # without touching the others.
 #
 #   bench/results.sh --data DIR [BUILD_DIR]
-#   bench/results.sh --data DIR --only direction [BUILD_DIR]     one of: best_case separation robustness direction speed
+#   bench/results.sh --data DIR --only direction [BUILD_DIR]     one of: best_case separation highlight highlight_photos
+#                                                                highlight_net robustness direction speed
 #                                                                synth_cycles synth_speed synth_rate
+#   bench/results.sh --data DIR --faces FACES ...                for highlight: the dev faces of docs/training.md; left as it
+#                                                                is without them
 #
-# BUILD_DIR (build/release) is built with FACEPROBE_BUILD_BENCH=ON. Ends with 1 when a benchmark misses its bar; its section is
+# BUILD_DIR (build/test) is built with FACEPROBE_BUILD_BENCH=ON, and FACEPROBE_TRAIN=ON for highlight and highlight_photos. Ends with 1 when a benchmark misses its bar; its section is
 # written all the same.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-sections=(best_case separation robustness direction speed synth_cycles synth_speed synth_rate)
+sections=(best_case separation highlight highlight_photos highlight_net robustness direction speed synth_cycles synth_speed synth_rate)
 data=
+faces=
 only=
-build=$root/build/release
+build=$root/build/test
 while [ $# -gt 0 ]; do
   case $1 in
     --data) data=${2:?--data takes a folder}; shift ;;
+    --faces) faces=${2:?--faces takes a folder}; shift ;;
     --only) only=${2:?--only takes a section}; shift ;;
-    -*) echo "unknown option $1; there are --data and --only." >&2; exit 2 ;;
+    -*) echo "unknown option $1; there are --data, --faces and --only." >&2; exit 2 ;;
     *) build=$1 ;;
   esac
   shift
@@ -37,6 +42,9 @@ title_of() {
   case $1 in
     best_case) echo "Light, with everything else known" ;;
     separation) echo "Highlight separation on objects" ;;
+    highlight) echo "Highlight layers of synthetic faces" ;;
+    highlight_photos) echo "Highlight layers of photos" ;;
+    highlight_net) echo "What the highlight network costs" ;;
     robustness) echo "Many kinds of photo" ;;
     direction) echo "Known light directions on real faces" ;;
     speed) echo "Time and memory" ;;
@@ -49,7 +57,8 @@ title_of() {
 # As a reader would type it.
 command_of() {
   case $1 in
-    speed) echo "bench/speed.sh BUILD" ;;
+    highlight) echo "BUILD/bin/faceprobe eval highlight --data FACES --weights net=models/highlight.safetensors" ;;
+    speed) echo "bench/speed.sh" ;;
     synth_speed) echo "BUILD/bin/bench_synth_speed" ;;
     synth_rate) echo "bench/synth_rate.sh --data DIR BUILD" ;;
     *) echo "BUILD/bin/bench_$1 --data DIR" ;;
@@ -58,7 +67,8 @@ command_of() {
 
 run_section() {
   case $1 in
-    speed) "$root/bench/speed.sh" "$build" ;;
+    highlight) "$build/bin/faceprobe" eval highlight --data "$faces" --weights net="$root/models/highlight.safetensors" ;;
+    speed) "$root/bench/speed.sh" ;;
     synth_speed) "$build/bin/bench_synth_speed" ;;
     synth_rate) "$root/bench/synth_rate.sh" --data "$data" "$build" ;;
     *) "$build/bin/bench_$1" --data "$data" ;;
@@ -86,6 +96,10 @@ trap 'rm -rf "$work"' EXIT
 for section in "${sections[@]}"; do
   kept_section "$section" >"$work/$section"
   if [ -n "$only" ] && [ "$only" != "$section" ]; then continue; fi
+  if [ "$section" = highlight ] && [ -z "$faces" ]; then
+    echo "results: highlight is left as it is; --faces names the synthetic faces to measure on." >&2
+    continue
+  fi
   echo "results: $section" >&2
   code=0
   run_section "$section" >"$work/output" || code=$?
@@ -99,7 +113,7 @@ for section in "${sections[@]}"; do
   {
     printf '## %s\n\n`%s`, on %s.\n\n' "$(title_of "$section")" "$(command_of "$section")" "$(machine)"
     # Nobody's folders are published.
-    sed -e "s|$data|DIR|g" -e "s|$build|BUILD|g" -e "s|$root/||g" "$work/output"
+    sed -e "s|$data|DIR|g" -e "s|$build|BUILD|g" ${faces:+-e "s|$faces|FACES|g"} -e "s|$root/||g" "$work/output"
   } | cat -s >"$work/$section"
 done
 
@@ -109,7 +123,8 @@ target=$(mktemp "$results.XXXXXX")
 # Results
 
 Written by `bench/results.sh --data DIR [BUILD]`; edit the benchmarks, not this page. DIR is the data folder that
-[data.md](data.md) describes, BUILD a release build with the benchmarks. Every section names the command that printed it.
+[data.md](data.md) describes, BUILD a build with benchmarks and training (`scripts/test.sh` makes one), FACES the dev faces of
+[training.md](training.md). Every section names the command that printed it.
 Light is measured against light that is known: rendered, or set up by whoever took the pictures.
 END
   for section in "${sections[@]}"; do

@@ -4,7 +4,8 @@
 #
 #   bench/speed.sh [--photo FILE] [--runs N] [BUILD_DIR]
 #
-# BUILD_DIR (build/release) holds bin/faceprobe and bin/bench_enlarge.
+# BUILD_DIR (build/release) holds bin/faceprobe; bench_enlarge may also be in build/test. Not for a build with training
+# (FACEPROBE_TRAIN): loading libtorch would be most of what is measured.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -20,14 +21,16 @@ while [ $# -gt 0 ]; do
   esac
   shift
 done
-for program in faceprobe bench_enlarge; do
-  [ -x "$build/bin/$program" ] || { echo "$program is not in the build folder's bin; build it first." >&2; exit 1; }
+enlarge=$build/bin/bench_enlarge
+[ -x "$enlarge" ] || enlarge=$root/build/test/bin/bench_enlarge
+for program in "$build/bin/faceprobe" "$enlarge"; do
+  [ -x "$program" ] || { echo "There is no $program; scripts/build.sh and scripts/test.sh build what is needed." >&2; exit 1; }
 done
 [ -f "$photo" ] || { echo "There is no photo to enlarge; name one with --photo, or run scripts/setup.sh." >&2; exit 1; }
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-"$build/bin/bench_enlarge" "$photo" "$work/large.jpg"
+"$enlarge" "$photo" "$work/large.jpg"
 for ((i = 1; i <= runs; ++i)); do
   /usr/bin/time -f '%e %M' -o "$work/time.$i" \
     "$build/bin/faceprobe" estimate "$work/large.jpg" -o "$work/out" --timings >/dev/null 2>"$work/log.$i" ||

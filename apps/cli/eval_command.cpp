@@ -78,7 +78,7 @@ int run(Options options) {
        {highlight::Separator::kTan, highlight::Separator::kYang, highlight::Separator::kShen})
     methods.push_back(classical(separator, options.benchmark.threads));
   const net::TorchHighlightNetOptions net_options{.threads = options.benchmark.threads,
-                                             .device = net::device_from_name(options.device)};
+                                                  .device = net::device_from_name(options.device)};
   for (const std::string& weights : options.weights) methods.push_back(network(weights, net_options));
   const bool terminal = isatty(STDERR_FILENO) != 0;
   options.benchmark.progress = [terminal](int done, int total) {

@@ -105,15 +105,14 @@ struct Setting {
 std::vector<Setting> settings(const std::filesystem::path& weights) {
   std::vector<Setting> all;
   for (const Solver solver : {Solver::kTransport, Solver::kPaper}) {
-    for (const std::optional<Separator> classical :
-         {std::optional<Separator>(), std::optional(Separator::kTan), std::optional(Separator::kYang),
-          std::optional(Separator::kShen)}) {
+    for (const std::optional<Separator> classical : {std::optional<Separator>(), std::optional(Separator::kTan),
+                                                     std::optional(Separator::kYang), std::optional(Separator::kShen)}) {
       pipeline::EstimateOptions options;
       options.solve.solver = solver;
       options.classical = classical;
       options.highlight_weights = weights;
-      all.push_back({std::string(lighting::solver_name(solver)) + ", " + options.separator_name(),
-                     pipeline::Estimator(options)});
+      all.push_back(
+          {std::string(lighting::solver_name(solver)) + ", " + options.separator_name(), pipeline::Estimator(options)});
     }
   }
   return all;

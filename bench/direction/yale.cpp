@@ -152,7 +152,8 @@ void report_yale(const std::filesystem::path& folder, int every, const std::file
   std::printf(
       "### Yale B: one flash\n\nAngles in degrees between the estimate and the flash, %zu pictures with the flash up to"
       " %.0f degrees off the camera axis; the last columns by that angle. The pictures are grey, so"
-      " the classical separators find no highlights and all three give the same. Their code values are taken for linear light unless the row says otherwise. Estimates that "
+      " the classical separators find no highlights and all three give the same. Their code values are taken for "
+      "linear light unless the row says otherwise. Estimates that "
       "found"
       " no face: %d.\n\n",
       pictures.size(), kMaxAxisDeg, faceless);

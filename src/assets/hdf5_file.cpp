@@ -6,7 +6,7 @@
 namespace faceprobe::assets {
 namespace {
 
-constexpr hsize_t kMaxValues = 1ULL << 29;
+constexpr hsize_t kMaxHdf5Values = 1ULL << 29;
 constexpr std::size_t kMaxText = 16U << 20U;
 
 // HDF5 prints what goes wrong unless it is told not to; while one of these lives it keeps still.
@@ -84,7 +84,7 @@ Array Hdf5File::array(const std::string& dataset) const {
   array.is_integer = kind == H5T_INTEGER;
   hsize_t count = 1;
   for (int i = 0; i < rank; ++i) {
-    if (sides[i] != 0 && count > kMaxValues / sides[i]) refuse_input(what + " is larger than 2 GiB.");
+    if (sides[i] != 0 && count > kMaxHdf5Values / sides[i]) refuse_input(what + " is larger than 2 GiB.");
     count *= sides[i];
     array.shape.push_back(static_cast<std::size_t>(sides[i]));
   }

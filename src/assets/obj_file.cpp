@@ -12,7 +12,7 @@
 namespace faceprobe::assets {
 namespace {
 
-constexpr std::int64_t kMaxBytes = 256LL << 20;
+constexpr std::int64_t kMaxObjBytes = 256LL << 20;
 constexpr double kMaxCoordinate = 1e6;
 
 std::string_view next_word(std::string_view& line) {
@@ -117,7 +117,7 @@ std::filesystem::path first_texture(const std::vector<tinyobj::material_t>& mate
 
 ObjFile read_obj(const std::filesystem::path& path, bool vertices_only) {
   const std::string name = quoted(path);
-  const std::vector<std::byte> bytes = io::read_file(path, kMaxBytes);
+  const std::vector<std::byte> bytes = io::read_file(path, kMaxObjBytes);
   ObjFile obj;
   obj.vertices = scan_vertices({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, name);
   if (vertices_only) return obj;

@@ -24,6 +24,7 @@ float intersection_over_union(const Detection& a, const Detection& b);
 
 // Non-maximum suppression by averaging (Bazarevsky et al. 2019, BlazeFace, section 4): detections that overlap the best
 // one by more than `overlap` are merged into it, weighted by score. The result is sorted by falling score.
+constexpr float kMergeOverlap = 0.3F;
 std::vector<Detection> merge_overlapping(std::vector<Detection> detections, float overlap);
 
 // The square around a face, turned so that its eyes are level, as the mesh network wants it.

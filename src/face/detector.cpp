@@ -8,7 +8,6 @@ namespace faceprobe::face {
 namespace {
 
 constexpr std::size_t kRegressorValues = 4 + 2 * kKeypointCount;  // box centre and size, keypoints
-constexpr float kMergeOverlap = 0.3F;
 
 int input_size(DetectorKind kind) { return kind == DetectorKind::kShortRange ? 128 : 192; }
 

@@ -18,7 +18,6 @@ namespace {
 
 constexpr const char* kFullRangeFile = "face_detection_full_range.tflite";
 constexpr int kMaxTiles = 32;
-constexpr float kMergeOverlap = 0.3F;
 // The short-range detector likes air around a face that fills the photo.
 constexpr float kShortRangePadding = 1.5F;
 // Beside a large face, faces much smaller than it are not worth 30 more looks: they tell little of the light.

@@ -48,11 +48,11 @@ ByteImage usable_pixels(const Image& highlight, const Image& small, const ByteIm
 }
 
 // Where the centre of full pixel i lies between two small ones: the one before, and the share of the next.
-struct Slot {
+struct Between {
   std::size_t cell;
   float next;
 };
-Slot slot(int i, int size, int small_size) {
+Between between(int i, int size, int small_size) {
   const float at = (static_cast<float>(i) + 0.5F) * static_cast<float>(small_size) / static_cast<float>(size) - 0.5F;
   const float inside = std::clamp(at, 0.0F, static_cast<float>(small_size - 1));
   const auto cell = static_cast<std::size_t>(inside);
@@ -60,15 +60,15 @@ Slot slot(int i, int size, int small_size) {
 }
 
 // line: the models of one full row at the small columns, the last one twice.
-void apply(const std::vector<Model>& line, const Slot& column, const float* picture, float* highlight) {
+void apply(const std::vector<Model>& line, const Between& column, const float* picture, float* highlight) {
   // Infinite values, NaN, and what is so bright that it nearly is infinite, hold no light that could be split.
   if (!(std::abs(picture[0]) + std::abs(picture[1]) + std::abs(picture[2]) <= FLT_MAX)) return;
   const Eigen::Vector4f colour(picture[0], picture[1], picture[2], 1);
   const Eigen::Vector4f near = line[column.cell] * colour;
   const Eigen::Vector4f far = line[column.cell + 1] * colour;
-  const Eigen::Vector4f between = near + column.next * (far - near);
+  const Eigen::Vector4f mixed = near + column.next * (far - near);
   // In this order std::max turns NaN, from models of absurd values, into no highlight.
-  for (int c = 0; c < 3; ++c) highlight[c] = std::min(std::max(0.0F, between[c]), std::max(0.0F, picture[c]));
+  for (int c = 0; c < 3; ++c) highlight[c] = std::min(std::max(0.0F, mixed[c]), std::max(0.0F, picture[c]));
 }
 
 }  // namespace
@@ -94,13 +94,13 @@ Image upsample_highlight(const Image& small_highlight, const Image& small_pictur
   const std::vector<Model> models = fit_local_models({small_highlight, small_picture, usable}, options.radius_px,
                                                      static_cast<double>(options.epsilon), options.threads);
   const auto width = static_cast<std::size_t>(small_picture.width());
-  std::vector<Slot> columns;
+  std::vector<Between> columns;
   columns.reserve(static_cast<std::size_t>(picture.width()));
-  for (int x = 0; x < picture.width(); ++x) columns.push_back(slot(x, picture.width(), small_picture.width()));
+  for (int x = 0; x < picture.width(); ++x) columns.push_back(between(x, picture.width(), small_picture.width()));
   parallel_for(picture.height(), options.threads, [&](int first, int last) {
     std::vector<Model> line(width + 1);
     for (int y = first; y < last; ++y) {
-      const Slot row = slot(y, picture.height(), small_picture.height());
+      const Between row = between(y, picture.height(), small_picture.height());
       const Model* above = models.data() + row.cell * width;
       const Model* below = row.next > 0 ? above + width : above;
       for (std::size_t x = 0; x < width; ++x) line[x] = above[x] + row.next * (below[x] - above[x]);

@@ -64,8 +64,8 @@ Image Convolution::operator()(const Image& features) const {
   }
   const int stride = s.shape.stride;
   Image result((features.width() + stride - 1) / stride, (features.height() + stride - 1) / stride, s.shape.out);
-  const Forward::primitive_desc plan = s.plan({1, s.shape.in, features.height(), features.width()},
-                                              {1, s.shape.out, result.height(), result.width()});
+  const Forward::primitive_desc plan =
+      s.plan({1, s.shape.in, features.height(), features.width()}, {1, s.shape.out, result.height(), result.width()});
   dnnl::stream stream(s.engine);
   // The plan says how it wants the weights; putting them in order costs little beside the convolution.
   memory stored = wrapped(described(s.weight_dims(), memory::format_tag::oihw), s.engine, s.weight.data());
@@ -74,10 +74,9 @@ Image Convolution::operator()(const Image& features) const {
     ordered = memory(plan.weights_desc(), s.engine);
     dnnl::reorder(stored, ordered).execute(stream, stored, ordered);
   }
-  std::unordered_map<int, memory> arguments = {
-      {DNNL_ARG_SRC, wrapped(plan.src_desc(), s.engine, features.data())},
-      {DNNL_ARG_WEIGHTS, ordered},
-      {DNNL_ARG_DST, wrapped(plan.dst_desc(), s.engine, result.data())}};
+  std::unordered_map<int, memory> arguments = {{DNNL_ARG_SRC, wrapped(plan.src_desc(), s.engine, features.data())},
+                                               {DNNL_ARG_WEIGHTS, ordered},
+                                               {DNNL_ARG_DST, wrapped(plan.dst_desc(), s.engine, result.data())}};
   if (s.shape.bias) arguments[DNNL_ARG_BIAS] = wrapped(plan.bias_desc(), s.engine, s.bias.data());
   Forward(plan).execute(stream, arguments);
   stream.wait();

@@ -55,7 +55,8 @@ void GroupNormSilu::apply(Image& features) const {
     for (int x = 0; x < features.width(); ++x) {
       for (int c = 0; c < channels; c += kPack) {
         Eigen::Map<Pack> values(features.pixel(x, y) + c);
-        const Pack normal = Pack(values) * Eigen::Map<const Pack>(scale.data() + c) + Eigen::Map<const Pack>(shift.data() + c);
+        const Pack normal =
+            Pack(values) * Eigen::Map<const Pack>(scale.data() + c) + Eigen::Map<const Pack>(shift.data() + c);
         const Pack grown = (-normal).exp();
         values = normal / (1.0F + grown);
       }

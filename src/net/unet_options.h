@@ -20,8 +20,8 @@ std::string options_json(const UNetOptions& options);
 // Throws Error(kModel).
 UNetOptions unet_options_from_json(const std::string& text);
 
-constexpr int kFold = 2;        // pixels of a side that become channels
-constexpr int kNormGroups = 8;  // of the group norm
+constexpr int kFold = 2;             // pixels of a side that become channels
+constexpr int kNormGroups = 8;       // of the group norm
 constexpr float kNormFloor = 1e-5F;  // added to the variance
 
 }  // namespace faceprobe::net

@@ -35,7 +35,7 @@ class UNetRunner {
   static Image run(const Level& level, const Image& features);
 
   UNetOptions options_;
-  std::vector<Level> encoder_, decoder_;            // by level, finest first
+  std::vector<Level> encoder_, decoder_;             // by level, finest first
   std::vector<Convolution> from_skip_, from_below_;  // 1x1, by level of the decoder
   std::vector<Convolution> head_;                    // one
 };

@@ -5,7 +5,6 @@
 #include "faceprobe/io/data_files.h"
 #include "faceprobe/net/highlight_net.h"
 
-
 #include <algorithm>
 #include <cmath>
 

@@ -1,6 +1,7 @@
 #include "pipeline/observe.h"
 
 #include "faceprobe/core/skin_reflectance.h"
+#include "faceprobe/core/smooth_step.h"
 #include "faceprobe/io/photo.h"
 #include "faceprobe/lighting/horizon.h"
 
@@ -26,11 +27,6 @@ float geometry_trust(Region region) {
     case Region::kUpperLip: return 0.4F;
     default: return 0.25F;
   }
-}
-
-float smooth_step(float low, float high, float value) {
-  const float t = std::clamp((value - low) / (high - low), 0.0F, 1.0F);
-  return t * t * (3.0F - 2.0F * t);
 }
 
 // Pixels this close to the mesh's outline may show hair or background: the mesh is good to a few percent of the face.
@@ -72,11 +68,10 @@ struct Patch {
 
 ByteImage skin_regions(const ByteImage& region) {
   ByteImage skin(region.width(), region.height(), 1);
-  std::transform(region.values().begin(), region.values().end(), skin.values().begin(),
-                 [](std::uint8_t r) {
-                   // The ten skin regions count from 1.
-                   return r <= kSkinRegionCount ? r : std::uint8_t{0};
-                 });
+  std::transform(region.values().begin(), region.values().end(), skin.values().begin(), [](std::uint8_t r) {
+    // The ten skin regions count from 1.
+    return r <= kSkinRegionCount ? r : std::uint8_t{0};
+  });
   return skin;
 }
 

@@ -26,8 +26,7 @@ face::Crop full_crop(const face::Face& face, int width, int height) {
 template <class T>
 BasicImage<T> cut(const BasicImage<T>& photo, int left, int top, const face::Crop& crop) {
   BasicImage<T> out(crop.width, crop.height, photo.channels());
-  for (int y = 0; y < crop.height; ++y)
-    std::copy_n(photo.pixel(left, top + y), out.row(y).size(), out.pixel(0, y));
+  for (int y = 0; y < crop.height; ++y) std::copy_n(photo.pixel(left, top + y), out.row(y).size(), out.pixel(0, y));
   return out;
 }
 

@@ -3,6 +3,7 @@
 #include "faceprobe/core/color.h"
 #include "faceprobe/core/error.h"
 #include "faceprobe/core/parallel.h"
+#include "faceprobe/core/smooth_step.h"
 #include "pipeline/camera_of.h"
 #include "pipeline/unwrap_fill.h"
 #include "pipeline/unwrap_fit.h"
@@ -28,11 +29,6 @@ constexpr float kBrowTopM = 0.040F;    // height above the eyes where brows have
 constexpr float kFaceSideM = 0.060F;   // from the middle
 constexpr float kPriorWeight = 0.01F;  // of the skin's mean colour against a texel that was seen
 constexpr float kClippedWeight = 0.25F;
-
-float smooth_step(float from, float to, float x) {
-  const float t = std::clamp((x - from) / (to - from), 0.0F, 1.0F);
-  return t * t * (3.0F - 2.0F * t);
-}
 
 void check_model(const synth::HeadModel& model) {
   if (model.uv.rows() == 0 || model.triangle_uv.rows() != model.triangles.rows()) {

@@ -72,7 +72,7 @@ TEST(Basel2009Files, TrianglesThatFaceInwardsAreTurned) {
 
 TEST(Basel2009Files, RefusesWhatDoesNotFit) {
   const TempFolder folder;
-  const auto refused = [&](const std::function<void(Variables&)>& change, std::initializer_list<std::string_view> words) {
+  const auto refused = [&](const std::function<void(Variables&)>& change, const std::vector<std::string>& words) {
     Variables v = basel_2009();
     change(v);
     testing::write_mat(folder / "bad.mat", v, MatVersion::k5);
@@ -170,7 +170,7 @@ TEST(BaselH5, TakesNumberedLandmarks) {
 
 TEST(BaselH5, RefusesOtherLayouts) {
   const TempFolder folder;
-  const auto refused = [&](const std::function<void(Datasets&)>& change, std::initializer_list<std::string_view> words) {
+  const auto refused = [&](const std::function<void(Datasets&)>& change, const std::vector<std::string>& words) {
     Datasets d = basel_h5();
     change(d);
     testing::write_h5(folder / "bad.h5", d);

@@ -8,17 +8,6 @@
 
 namespace faceprobe::assets::testing {
 
-TempFolder::TempFolder() {
-  std::string name = (std::filesystem::temp_directory_path() / "faceprobe_assets_XXXXXX").string();
-  EXPECT_NE(mkdtemp(name.data()), nullptr);
-  path_ = name;
-}
-
-TempFolder::~TempFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
-
 void write_text(const std::filesystem::path& path, std::string_view text) {
   std::ofstream file(path, std::ios::binary);
   file.write(text.data(), static_cast<std::streamsize>(text.size()));
@@ -94,18 +83,6 @@ void write_h5(const std::filesystem::path& path, const std::map<std::string, H5D
   }
   H5Pclose(parents);
   H5Fclose(file);
-}
-
-void expect_error(ExitCode code, std::initializer_list<std::string_view> words, const std::function<void()>& call) {
-  try {
-    call();
-    ADD_FAILURE() << "nothing was refused; expected: " << *words.begin();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), code) << error.what();
-    const std::string sentence = error.what();
-    for (const std::string_view word : words)
-      EXPECT_NE(sentence.find(word), std::string::npos) << word << " <- " << sentence;
-  }
 }
 
 }  // namespace faceprobe::assets::testing

@@ -1,7 +1,8 @@
 #pragma once
 // Small files of other people's formats, written through the formats' own libraries.
 
-#include "faceprobe/core/error.h"
+#include "support/expect_error.h"
+#include "support/temp_folder.h"
 
 #include <gtest/gtest.h>
 #include <Eigen/Core>
@@ -18,19 +19,8 @@
 
 namespace faceprobe::assets::testing {
 
-// A folder of its own, removed with what is in it.
-class TempFolder {
- public:
-  TempFolder();
-  TempFolder(const TempFolder&) = delete;
-  TempFolder& operator=(const TempFolder&) = delete;
-  ~TempFolder();
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
+using faceprobe::testing::expect_error;
+using faceprobe::testing::TempFolder;
 
 void write_text(const std::filesystem::path& path, std::string_view text);
 
@@ -54,8 +44,5 @@ struct H5Data {
   std::string text;            // in place of numbers
 };
 void write_h5(const std::filesystem::path& path, const std::map<std::string, H5Data>& datasets);
-
-// `call` throws an Error of the code whose sentence holds all the words.
-void expect_error(ExitCode code, std::initializer_list<std::string_view> words, const std::function<void()>& call);
 
 }  // namespace faceprobe::assets::testing

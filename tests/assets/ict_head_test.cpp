@@ -126,7 +126,7 @@ TEST(IctHead, RefusesWhatDoesNotFit) {
   expect_error(ExitCode::kInput, {"no ICT-FaceKit folder", "generic_neutral_mesh.obj"},
                [&] { load_ict_head(folder.path()); });
   write_folder(folder);
-  const auto refused = [&](std::initializer_list<std::string_view> words) {
+  const auto refused = [&](const std::vector<std::string>& words) {
     expect_error(ExitCode::kInput, words, [&] { load_ict_head(folder.path()); });
   };
   testing::write_text(folder / "ict_meta.json", R"({"expression_names": ["a", "b"]})");

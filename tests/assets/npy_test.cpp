@@ -34,7 +34,7 @@ TEST(Npy, ReadsShapesAndBothVersions) {
 }
 
 TEST(Npy, RefusesWhatItCannotRead) {
-  const auto refused = [](const std::string& text, std::initializer_list<std::string_view> words) {
+  const auto refused = [](const std::string& text, const std::vector<std::string>& words) {
     expect_error(ExitCode::kInput, words, [&] { parse(text); });
   };
   const std::string good = npy_text<float>("<f4", {2, 3}, {0, 1, 2, 3, 4, 5});

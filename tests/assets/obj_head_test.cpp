@@ -95,7 +95,7 @@ TEST(ObjHead, TakesTheTextureOfItsMaterialOrTheOneBeside) {
 
 TEST(ObjHead, RefusesBrokenFiles) {
   const TempFolder folder;
-  const auto refused = [&](const std::string& text, std::initializer_list<std::string_view> words) {
+  const auto refused = [&](const std::string& text, const std::vector<std::string>& words) {
     write_text(folder / "bad.obj", text);
     expect_error(ExitCode::kInput, words, [&] { load_obj_head(folder / "bad.obj"); });
   };

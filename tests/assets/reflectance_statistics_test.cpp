@@ -67,7 +67,7 @@ TEST(ReflectanceStatistics, ReachTheSkinsThatAreDrawn) {
 
 TEST(ReflectanceStatistics, RefuseWhatDoesNotFit) {
   const TempFolder folder;
-  const auto refused = [&](const std::function<void(Variables&)>& change, std::initializer_list<std::string_view> words) {
+  const auto refused = [&](const std::function<void(Variables&)>& change, const std::vector<std::string>& words) {
     Variables v = measured();
     change(v);
     testing::write_mat(folder / "bad.mat", v, MatVersion::k5);

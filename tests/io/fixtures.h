@@ -1,8 +1,9 @@
 #pragma once
 // Small files that the io tests make for themselves.
 
-#include "faceprobe/core/error.h"
 #include "faceprobe/core/image.h"
+#include "support/expect_error.h"
+#include "support/temp_folder.h"
 
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
@@ -15,19 +16,8 @@
 
 namespace faceprobe::io::testing {
 
-// A folder of its own, removed with what is in it.
-class TempFolder {
- public:
-  TempFolder();
-  TempFolder(const TempFolder&) = delete;
-  TempFolder& operator=(const TempFolder&) = delete;
-  ~TempFolder();
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
+using faceprobe::testing::expect_error;
+using faceprobe::testing::TempFolder;
 
 using Bytes = std::vector<std::byte>;
 
@@ -49,20 +39,5 @@ void write_bytes(const std::string& format, const std::filesystem::path& path, c
 ByteImage quadrants();
 // Smooth picture with every level of each channel.
 ByteImage gradient(int width, int height, int channels);
-
-// Runs `body`; expects faceprobe::Error with this code whose sentence contains all of `parts`.
-template <class Body>
-void expect_error(ExitCode code, const std::vector<std::string>& parts, const Body& body) {
-  try {
-    body();
-    ADD_FAILURE() << "no Error was thrown";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), code) << error.what();
-    for (const std::string& part : parts) {
-      EXPECT_NE(std::string(error.what()).find(part), std::string::npos)
-          << "'" << part << "' is not in: " << error.what();
-    }
-  }
-}
 
 }  // namespace faceprobe::io::testing

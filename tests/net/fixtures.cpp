@@ -20,17 +20,6 @@ class OneThread : public ::testing::Environment {
 
 }  // namespace
 
-TempFolder::TempFolder() {
-  std::string pattern = (std::filesystem::temp_directory_path() / "faceprobe_net_XXXXXX").string();
-  if (::mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder");
-  path_ = pattern;
-}
-
-TempFolder::~TempFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
-
 UNetOptions small_options() { return {.widths = {8, 16, 16}, .convs_per_level = 2}; }
 
 std::map<std::string, std::string> unet_metadata(const UNetOptions& options) {

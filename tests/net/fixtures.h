@@ -1,9 +1,10 @@
 #pragma once
 // What the net tests share: a folder of their own, small networks and pictures.
 
-#include "faceprobe/core/error.h"
 #include "faceprobe/core/image.h"
 #include "net/torch/unet.h"
+#include "support/expect_error.h"
+#include "support/temp_folder.h"
 
 #include <gtest/gtest.h>
 #include <torch/torch.h>
@@ -14,33 +15,8 @@
 
 namespace faceprobe::net::testing {
 
-// A folder of its own, removed with what is in it.
-class TempFolder {
- public:
-  TempFolder();
-  TempFolder(const TempFolder&) = delete;
-  TempFolder& operator=(const TempFolder&) = delete;
-  ~TempFolder();
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
-
-// Runs `body`; expects faceprobe::Error with this code whose sentence contains all of `parts`.
-template <class Body>
-void expect_error(ExitCode code, const std::vector<std::string>& parts, const Body& body) {
-  try {
-    body();
-    ADD_FAILURE() << "no Error was thrown";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), code) << error.what();
-    for (const std::string& part : parts) {
-      EXPECT_NE(std::string(error.what()).find(part), std::string::npos)
-          << "'" << part << "' is not in: " << error.what();
-    }
-  }
-}
+using faceprobe::testing::expect_error;
+using faceprobe::testing::TempFolder;
 
 // The architecture in small.
 UNetOptions small_options();

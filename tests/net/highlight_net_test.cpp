@@ -179,8 +179,8 @@ TYPED_TEST(HighlightNetTest, WrongCallsAreRefused) {
 
 TYPED_TEST(HighlightNetTest, FilesThatDoNotFitAreRefused) {
   const auto expect_refused = [&](const std::string& architecture, const std::string& options, const std::string& part) {
-    save_weights(*UNet(testing::small_options()), this->path(), {{kArchitectureKey, architecture}, {kOptionsKey, options}},
-                 true);
+    save_weights(*UNet(testing::small_options()), this->path(),
+                 {{kArchitectureKey, architecture}, {kOptionsKey, options}}, true);
     expect_error(ExitCode::kModel, {part}, [&] { TypeParam net(this->path()); });
   };
   expect_refused("resnet", "{}", "'resnet'");
@@ -208,7 +208,8 @@ TEST(HighlightNets, OneThreadIsAsGoodAsMany) {
   testing::write_unet(folder / "w", {.widths = {24, 48, 72, 112, 144}});
   const Image picture = random_picture(128, 112, 0, 1);
   const Image one = HighlightNet(folder / "w", {.threads = 1}).highlight(picture, {}, {});
-  for (const int threads : {2, 3, 7}) EXPECT_EQ(HighlightNet(folder / "w", {.threads = threads}).highlight(picture, {}, {}), one);
+  for (const int threads : {2, 3, 7})
+    EXPECT_EQ(HighlightNet(folder / "w", {.threads = threads}).highlight(picture, {}, {}), one);
 }
 
 TEST(HighlightNets, TheQuickOneRunsNoMscr) {

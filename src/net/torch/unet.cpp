@@ -10,7 +10,8 @@ torch::nn::Conv2d conv_1x1(int in, int out) { return torch::nn::Conv2d(torch::nn
 }  // namespace
 
 ConvUnitImpl::ConvUnitImpl(int in, int out, int stride)
-    : conv_(torch::nn::Conv2dOptions(in, out, 3).stride(stride).padding(1).bias(false)), norm_(torch::nn::GroupNormOptions(kNormGroups, out).eps(kNormFloor)) {
+    : conv_(torch::nn::Conv2dOptions(in, out, 3).stride(stride).padding(1).bias(false)),
+      norm_(torch::nn::GroupNormOptions(kNormGroups, out).eps(kNormFloor)) {
   register_module("conv", conv_);
   register_module("norm", norm_);
 }

@@ -9,7 +9,7 @@
 namespace faceprobe::synth {
 namespace {
 
-enum Purpose : std::uint64_t { kPlaces = 21, kCamera };
+enum GroupPurpose : std::uint64_t { kPlaces = 21, kGroupCamera };
 
 constexpr int kMostPeople = 4;
 constexpr double kShoulders =
@@ -70,7 +70,7 @@ std::vector<Person> draw_people(const Assets& assets, const Recipe& recipe, int 
 
 View draw_scene_view(std::span<const Person> people, const Recipe& recipe, int number, int view) {
   if (!recipe.multi_face) return draw_view(people.front(), recipe, view);
-  Random random = scene_random(recipe, number).split(kCamera).split(static_cast<std::uint64_t>(view));
+  Random random = scene_random(recipe, number).split(kGroupCamera).split(static_cast<std::uint64_t>(view));
   Eigen::Vector3f middle = Eigen::Vector3f::Zero();
   for (const Person& person : people) middle += face_middle(person) / static_cast<float>(people.size());
 

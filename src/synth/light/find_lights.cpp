@@ -53,7 +53,8 @@ class Finder {
       row_.emplace_back(std::sin(theta), std::cos(theta));
     }
     for (int x = 0; x < map.width(); ++x) {
-      const Eigen::Vector3d level = direction_from_uv({(static_cast<float>(x) + 0.5F) / static_cast<float>(map.width()), 0.5F}).cast<double>();
+      const Eigen::Vector3d level =
+          direction_from_uv({(static_cast<float>(x) + 0.5F) / static_cast<float>(map.width()), 0.5F}).cast<double>();
       column_.emplace_back(level.x(), level.z());
     }
   }
@@ -247,8 +248,8 @@ class Finder {
   double max_radius_;
   double texel_;  // radians
   std::vector<float> luminance_;
-  std::vector<std::uint8_t> done_;  // looked at already
-  double total_ = 0;                // luminance over the sphere
+  std::vector<std::uint8_t> done_;       // looked at already
+  double total_ = 0;                     // luminance over the sphere
   std::vector<Eigen::Vector2d> row_;     // sine and cosine of the angle from the pole
   std::vector<Eigen::Vector2d> column_;  // x and z of directions on the equator
 };

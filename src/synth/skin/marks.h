@@ -2,6 +2,7 @@
 // What lies on top of a skin's own colour at a place of the face: redness, freckles, moles; stubble, brows, make-up. Where on the face is
 // told by the head frame (metres, origin midway between the eyes) and by soft shares of regions, so that nothing has a hard edge.
 
+#include "faceprobe/core/smooth_step.h"
 #include "faceprobe/synth/skin.h"
 
 #include <Eigen/Core>
@@ -9,11 +10,6 @@
 #include <cstdint>
 
 namespace faceprobe::synth {
-
-inline float smooth_step(float from, float to, float x) {
-  const float t = std::min(1.0F, std::max(0.0F, (x - from) / (to - from)));
-  return t * t * (3.0F - 2.0F * t);
-}
 
 // The place that albedo is asked for.
 struct SkinPlace {

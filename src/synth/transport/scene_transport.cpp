@@ -44,10 +44,11 @@ class SkyView {
     for (std::size_t i = 0; i < rays_.size(); ++i) coarse_free_[static_cast<std::size_t>(cell_[i])] = free_[i];
     start();
     for (const int cell : coarse_.cells.order) {
-      const bool even = coarse_above(cell) && std::ranges::all_of(coarse_.around[static_cast<std::size_t>(cell)], [&](int o) {
-                          return coarse_above(o) && coarse_free_[static_cast<std::size_t>(o)] ==
-                                                        coarse_free_[static_cast<std::size_t>(cell)];
-                        });
+      const bool even =
+          coarse_above(cell) && std::ranges::all_of(coarse_.around[static_cast<std::size_t>(cell)], [&](int o) {
+            return coarse_above(o) &&
+                   coarse_free_[static_cast<std::size_t>(o)] == coarse_free_[static_cast<std::size_t>(cell)];
+          });
       for (const int child : coarse_.children[static_cast<std::size_t>(cell)]) {
         if (even) {
           share[child] = coarse_free_[static_cast<std::size_t>(cell)] != 0 ? kWhole : 0;

@@ -1,6 +1,7 @@
 #include "synth/wardrobe/glasses.h"
 
 #include "faceprobe/core/angles.h"
+#include "synth/wardrobe/noise.h"
 #include "synth/wardrobe/shapes.h"
 
 #include <Eigen/Geometry>
@@ -18,8 +19,6 @@ struct Design {
   bool rimless_below = false;
   Eigen::Vector3f colour{0.02F, 0.02F, 0.02F};
 };
-
-float draw(Random& random, double low, double high) { return static_cast<float>(random.between(low, high)); }
 
 Design draw_design(Glasses kind, Random& random) {
   Design d{};

@@ -9,8 +9,6 @@
 namespace faceprobe::synth {
 namespace {
 
-float draw(Random& random, double low, double high) { return static_cast<float>(random.between(low, high)); }
-
 void short_cut(HairStyle& style, Random& random) {
   style.top_m = draw(random, 0.025, 0.055);
   style.front_m = style.top_m * draw(random, 0.9, 1.3);

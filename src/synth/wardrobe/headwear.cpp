@@ -12,7 +12,6 @@
 namespace faceprobe::synth {
 namespace {
 
-constexpr auto kTurn = static_cast<float>(2 * kPi);
 constexpr float kLowest = -0.9F;  // elevation of the table's first row
 constexpr float kHighest = 1.55F;
 

@@ -12,10 +12,6 @@
 namespace faceprobe::synth {
 namespace {
 
-constexpr auto kTurn = static_cast<float>(2 * kPi);
-
-float draw(Random& random, double low, double high) { return static_cast<float>(random.between(low, high)); }
-
 void skin_colour(MeshBuilder& mesh, const WardrobeSettings& settings, int first) {
   mesh.colour(
       [&](const Eigen::Vector3f& p) {

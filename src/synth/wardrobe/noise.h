@@ -1,11 +1,16 @@
 #pragma once
-// Smooth noise in space, from a seed.
+// Smooth noise in space, from a seed; and random floats.
+
+#include "faceprobe/core/random.h"
+#include "faceprobe/core/smooth_step.h"
 
 #include <Eigen/Core>
 #include <cmath>
 #include <cstdint>
 
 namespace faceprobe::synth {
+
+inline float draw(Random& random, double low, double high) { return static_cast<float>(random.between(low, high)); }
 
 inline float lattice_value(std::uint64_t seed, int x, int y, int z) {
   std::uint64_t h = seed ^ (static_cast<std::uint64_t>(static_cast<std::uint32_t>(x)) * 0x9E3779B97F4A7C15ULL) ^
@@ -36,11 +41,6 @@ inline float noise(std::uint64_t seed, const Eigen::Vector3f& p) {
 
 inline Eigen::Vector3f noise3(std::uint64_t seed, const Eigen::Vector3f& p) {
   return {noise(seed, p), noise(seed + 1, p), noise(seed + 2, p)};
-}
-
-inline float smooth_step(float low, float high, float x) {
-  const float t = std::fmin(1.0F, std::fmax(0.0F, (x - low) / (high - low)));
-  return t * t * (3.0F - 2.0F * t);
 }
 
 }  // namespace faceprobe::synth

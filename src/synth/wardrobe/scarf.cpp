@@ -12,8 +12,6 @@
 namespace faceprobe::synth {
 namespace {
 
-constexpr auto kTurn = static_cast<float>(2 * kPi);
-
 // Directions about the axis out of the face: `around` from up towards +x, `away` from the axis.
 struct Polar {
   float around, away;

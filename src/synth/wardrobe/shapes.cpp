@@ -9,8 +9,6 @@
 namespace faceprobe::synth {
 namespace {
 
-constexpr auto kTurn = static_cast<float>(2 * kPi);
-
 Eigen::Vector3f unit(const Eigen::Vector3f& v, const Eigen::Vector3f& otherwise) {
   const float length = v.norm();
   return length > 1e-9F ? Eigen::Vector3f(v / length) : otherwise;

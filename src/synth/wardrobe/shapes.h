@@ -1,6 +1,7 @@
 #pragma once
 // Meshes of simple shapes, collected into one.
 
+#include "faceprobe/core/angles.h"
 #include "faceprobe/synth/mesh.h"
 
 #include <functional>
@@ -8,6 +9,8 @@
 #include <vector>
 
 namespace faceprobe::synth {
+
+constexpr auto kTurn = static_cast<float>(2 * kPi);
 
 class MeshBuilder {
  public:

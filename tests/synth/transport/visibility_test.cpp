@@ -23,9 +23,9 @@ TEST(CoarseCells, HoldEveryCellOnceAndTouchTheirNeighbours) {
     for (std::size_t c = 0; c < coarse.around.size(); ++c) {
       EXPECT_GE(coarse.around[c].size(), 6U);
       for (const int other : coarse.around[c]) {
-        const float cosine =
-            coarse.cells.centre.row(static_cast<Eigen::Index>(c)).dot(coarse.cells.centre.row(other));
-        EXPECT_LT(std::acos(cosine), 4.5F * coarse.cells.reach);  // two middles: at most four times from middle to corner, and some
+        const float cosine = coarse.cells.centre.row(static_cast<Eigen::Index>(c)).dot(coarse.cells.centre.row(other));
+        EXPECT_LT(std::acos(cosine),
+                  4.5F * coarse.cells.reach);  // two middles: at most four times from middle to corner, and some
       }
     }
   }
@@ -43,7 +43,7 @@ Scene still_life() {
 }
 
 struct Difference {
-  double mean_open = 0;     // share of the cosine-weighted sky that is free
+  double mean_open = 0;         // share of the cosine-weighted sky that is free
   double root_mean_square = 0;  // of that share, first look coarse - every cell with four rays
   double worst = 0;
 };
@@ -71,7 +71,8 @@ Difference compare() {
                                        free.begin() + static_cast<std::ptrdiff_t>(first + CellSet::kQuarters), 0);
       const auto weight = static_cast<double>(weights(c));
       exact += weight * seen / CellSet::kQuarters;
-      ours += weight * transport.visibility[v * static_cast<std::size_t>(cells.count) + static_cast<std::size_t>(c)] / 255.0;
+      ours += weight * transport.visibility[v * static_cast<std::size_t>(cells.count) + static_cast<std::size_t>(c)] /
+              255.0;
     }
     out.mean_open += exact;
     out.root_mean_square += (ours - exact) * (ours - exact);
