@@ -1,0 +1,63 @@
+#pragma once
+// The unsupervised loss of several photos of one person (paper, Section 3.2) with its gradient by every photo's highlight layer: the
+// diffuse chromaticities, brought into the mesh's own square, should have rank one.
+//
+//   const PersonPhotos photos(four_photos, square, {});        // once per batch
+//   const PersonLoss loss = photos.loss(highlights);           // one layer per photo, each the size of its crop
+//   highlight_tensor.backward(tensor_of(loss.by_highlight[k]));
+//
+// Not for fewer than two photos, and not before their light has been made of one colour (train/histogram_transfer.h).
+
+#include "faceprobe/core/image.h"
+#include "train/chromaticity.h"
+#include "train/frontalise.h"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace faceprobe::train {
+
+struct PersonPhoto {
+  Image linear;       // H x W x 3: the face's crop
+  ByteImage clipped;  // H x W x 1, non-zero = clipped in some channel; empty = nowhere
+  Warp warp;          // from the square to this crop
+};
+
+struct PersonLossOptions {
+  bool rank1 = true;  // the distance to rank one; false = the paper's second singular value
+  // Of the chromaticity, in the square: what landmarks misplace is not to look like a highlight. The paper has none.
+  float blur_sigma_px = 2.5F;
+  double guard_weight = 0.1;  // of each of the two guards of train/finetune_guards.h that one photo allows; 0 = none
+
+  std::string validate() const;  // empty when usable
+};
+
+struct PersonLoss {
+  double residual = 0;  // of the chromaticities, per pixel; see train/low_rank.h
+  double guards = 0;    // sum over the photos, weighted
+  double energy = 0;    // mean over photos and pixels of the highlight's mean channel, in the square: what must not run away
+  std::vector<Image> by_highlight;  // of residual + guards; the size of each crop
+};
+
+class PersonPhotos {
+ public:
+  // `regions`: of the square (template_regions). Skin that all photos show, unclipped, takes part. Throws std::invalid_argument: fewer
+  // than two photos, other sizes, options; no such skin.
+  PersonPhotos(std::vector<PersonPhoto> photos, const ByteImage& regions, const PersonLossOptions& options = {});
+
+  // Skin that takes part, in pixels of the square.
+  Eigen::Index pixels() const { return chromaticity_->pixels(); }
+  // Throws std::invalid_argument when a layer is not the size of its photo.
+  PersonLoss loss(std::span<const Image> highlights) const;
+
+ private:
+  std::vector<PersonPhoto> photos_;
+  PersonLossOptions options_;
+  std::vector<Eigen::MatrixX3d> flat_;  // the photos in the square
+  Image weight_;                        // of the square
+  std::optional<Chromaticity> chromaticity_;
+};
+
+}  // namespace faceprobe::train
