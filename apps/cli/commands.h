@@ -15,6 +15,7 @@ void add_info(CLI::App& program, Action& action);
 void add_synth(CLI::App& program, Action& action);
 CLI::App* add_unwrap(CLI::App& synth, Action& action);  // under synth
 void add_train(CLI::App& program, Action& action);
+void add_finetune(CLI::App& program, Action& action);
 void add_eval(CLI::App& program, Action& action);
 
 // Runs the action; every Error becomes its sentence on stderr and its exit code.

@@ -57,6 +57,7 @@ int main(int argc, char** argv) {
 #endif
 #ifdef FACEPROBE_HAS_TRAIN
   cli::add_train(program, action);
+  cli::add_finetune(program, action);
   cli::add_eval(program, action);
 #endif
   try {

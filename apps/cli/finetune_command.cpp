@@ -1,0 +1,88 @@
+#include "commands.h"
+#include "faceprobe/train/finetune.h"
+
+#include <spdlog/spdlog.h>
+
+#include <atomic>
+#include <csignal>
+#include <memory>
+
+namespace faceprobe::cli {
+
+namespace {
+
+struct Options {
+  std::string people;
+  std::string start;
+  std::string synthetic;
+  std::string output;
+  train::PeopleOptions photos;
+  train::FinetuneConfig config;
+};
+
+std::atomic<bool> interrupted = false;
+
+int run(Options options) {
+  train::FinetuneRun run;
+  options.photos.least_photos = options.config.photos;
+  options.photos.most_photos = std::max(options.photos.most_photos, options.config.photos);
+  run.people = train::load_people(options.people, options.photos, [](const std::string& text) { spdlog::info("{}", text); });
+  run.config = options.config;
+  run.start = options.start;
+  run.synthetic = options.synthetic;
+  run.folder = options.output;
+  run.threads = options.photos.threads;
+  std::signal(SIGINT, [](int) { interrupted = true; });
+  std::signal(SIGTERM, [](int) { interrupted = true; });
+  train::FinetuneHooks hooks;
+  hooks.progress = [](const train::FinetuneRow& row, std::int64_t steps) {
+    spdlog::info("step {} of {}: residual {:.5f}, highlight {:.4f}, guards {:.5f}, loss on synthetic faces {:.5f}",
+                 row.step, steps, row.residual, row.energy, row.guards, row.synthetic_loss);
+  };
+  hooks.stop = [] { return interrupted.load(); };
+  const train::FinetuneReport report = train::finetune_highlight(run, hooks);
+  fmt::print("{} people held out\n\n| | beyond rank one | no highlights taken off | mean highlight |\n| --- | ---: | ---: | ---: |\n",
+             report.before.people);
+  const auto row = [](const char* name, const train::PeopleScore& score) {
+    fmt::print("| {} | {:.5f} | {:.5f} | {:.4f} |\n", name, score.residual, score.untouched, score.energy);
+  };
+  row("before", report.before);
+  row("after", report.after);
+  return 0;
+}
+
+}  // namespace
+
+void add_finetune(CLI::App& program, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      program.add_subcommand("finetune", "improves the highlight network on photos of people, several of each");
+  command->add_option("--people", options->people, "folder with one folder of photos a person, at any depth")
+      ->required()
+      ->check(CLI::ExistingDirectory);
+  command->add_option("--start", options->start, "weights to begin with")->required();
+  command->add_option("--data", options->synthetic, "folder that `faceprobe synth` wrote, for every step's synthetic faces")
+      ->required();
+  command->add_option("-o,--output", options->output, "folder for weights and log")->required();
+  command->add_option("--mode", options->config.mode, "default, or paper: second singular value, nothing blurred")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"default", "paper"}));
+  command->add_option("--steps", options->config.steps, "steps")->capture_default_str();
+  command->add_option("--photos", options->config.photos, "photos of one person in a step")->capture_default_str();
+  command->add_option("--most-photos", options->photos.most_photos, "photos of one person at all")->capture_default_str();
+  command->add_option("--synthetic-batch", options->config.synthetic_batch, "synthetic faces in a step")
+      ->capture_default_str();
+  command->add_option("--learning-rate", options->config.learning_rate, "AdamW's")->capture_default_str();
+  command->add_option("--weight", options->config.weight, "of the people's loss against that on synthetic faces")
+      ->capture_default_str();
+  command->add_option("--held-out", options->config.held_out_share, "share of the people to measure on")
+      ->capture_default_str();
+  command->add_option("--seed", options->config.seed, "the same seed gives the same run")->capture_default_str();
+  command->add_option("--threads", options->photos.threads, "0 = all processors")->capture_default_str();
+  command->footer(
+      "Prints a table of people it was not trained on. Weights inherit the terms of the photos.\n\nExample:\n"
+      "  faceprobe finetune --people people --start models/highlight.safetensors --data faces/train -o finetuned");
+  command->callback([options, &action] { action = [options] { return run(*options); }; });
+}
+
+}  // namespace faceprobe::cli

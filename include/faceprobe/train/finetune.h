@@ -1,0 +1,80 @@
+#pragma once
+// Finetunes the highlight network on photos of people, without labels: paper Section 3.2. One person's skin has the same chromaticity in
+// every photo, so what the diffuse layers of several photos do not share is highlight that was missed, or skin that was taken. Every step
+// also trains on synthetic faces, so that the network keeps what it knows.
+//
+//   train::FinetuneRun run;
+//   run.people = train::load_people("real/finetune", {});       // one folder a person
+//   run.start = "models/highlight.safetensors";  run.synthetic = "faces/train";  run.folder = "runs/finetuned";
+//   const train::FinetuneReport report = train::finetune_highlight(run, {});
+//
+// Weights inherit the terms of the photos they have seen.
+
+#include "faceprobe/net/device.h"
+#include "faceprobe/train/people.h"
+#include "faceprobe/train/train.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace faceprobe::train {
+
+struct FinetuneConfig {
+  std::string mode = "default";  // "default": distance to rank one, blurred chroma; "paper": the second singular value
+  std::int64_t steps = 400;
+  int photos = 4;                // of one person in a step (paper: 4)
+  int synthetic_batch = 8;       // synthetic faces in a step; 0 = none
+  double learning_rate = 1e-4;
+  double weight = 3.0;           // of the loss on people against that on synthetic faces
+  double largest_gradient = 1.0;
+  double held_out_share = 0.25;  // of the people, to measure on
+  std::uint64_t seed = 1;
+
+  // Empty when usable, else a sentence that says which value is wrong.
+  std::string validate() const;
+};
+
+struct FinetuneRun {
+  FinetuneConfig config;
+  std::vector<PersonSet> people;
+  std::filesystem::path start;
+  std::filesystem::path synthetic;
+  std::filesystem::path folder;  // gets weights.safetensors and log.csv
+  int threads = 0;
+};
+
+// Means over people.
+struct PeopleScore {
+  int people = 0;
+  double residual = 0;   // beyond rank one, of the diffuse chromaticity, root mean square per pixel
+  double untouched = 0;  // the same with no highlights taken off
+  double energy = 0;     // mean highlight, 0 .. 1, linear
+};
+
+struct FinetuneRow {
+  std::int64_t step = 0;
+  double residual = 0;  // means since the last row, of what was trained on
+  double energy = 0;
+  double guards = 0;
+  double synthetic_loss = 0;
+};
+
+struct FinetuneReport {
+  PeopleScore before, after;  // on people that were held out
+  std::vector<FinetuneRow> rows;
+  std::filesystem::path weights;
+  bool finished = false;
+};
+
+struct FinetuneHooks {
+  std::function<void(const FinetuneRow&, std::int64_t steps)> progress;
+  std::function<bool()> stop;
+};
+
+// Throws Error: kInput (weights of another architecture than unet, too few people), kUsage, kOutput, kUnexpected (the loss is no number).
+FinetuneReport finetune_highlight(const FinetuneRun& run, const FinetuneHooks& hooks);
+
+}  // namespace faceprobe::train

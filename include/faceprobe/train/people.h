@@ -1,0 +1,45 @@
+#pragma once
+// Photos of people, several of each, made ready for the unsupervised stage (paper, Section 5.1): the face found and cut out at the size the
+// network works at, brought into the mesh's square, colours made those of the person's first photo, and unsuitable photos left out by
+// measured criteria.
+//
+//   const std::vector<PersonSet> people = load_people("real/finetune/press13", {});   // one folder a person
+//   for (const PersonSet& person : people) std::cout << person.name << ": " << person.photos.size() << '\n';
+
+#include "faceprobe/core/image.h"
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace faceprobe::train {
+
+struct PersonPhoto;  // train/person_loss.h
+
+struct PeopleOptions {
+  int crop_px = 128;          // long side of the crops, as the network's training
+  int square_px = 96;         // of the square in which photos are compared
+  int least_photos = 4;       // people with fewer are left out
+  int most_photos = 12;       // of one person
+  bool match_colours = true;  // by histogram transfer, as the paper does
+  int threads = 0;
+
+  std::string validate() const;  // empty when usable
+};
+
+struct PersonSet {
+  std::string name;
+  std::vector<std::shared_ptr<const PersonPhoto>> photos;  // shared: a photo is part of many batches
+  std::vector<ByteImage> masks;                            // skin in each crop, non-zero = skin
+  ByteImage regions;                                       // of the square
+  std::vector<std::string> left_out;                       // "NAME: why"
+};
+
+// Every folder at or below `folder` that holds photos is a person, named by its path from there. Folders that cannot be read throw
+// Error(kInput); photos that cannot are left out with the reason. `progress`: people done and found so far.
+std::vector<PersonSet> load_people(const std::filesystem::path& folder, const PeopleOptions& options,
+                                   const std::function<void(const std::string&)>& progress = {});
+
+}  // namespace faceprobe::train

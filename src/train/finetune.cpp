@@ -1,0 +1,295 @@
+#include "faceprobe/train/finetune.h"
+
+#include "faceprobe/core/error.h"
+#include "faceprobe/core/parallel.h"
+#include "faceprobe/core/random.h"
+#include "faceprobe/io/atomic_file.h"
+#include "faceprobe/net/model_file.h"
+
+#include "net/padded_picture.h"
+#include "net/torch/picture_tensors.h"
+#include "net/torch/unet.h"
+#include "net/torch/weights.h"
+#include "train/batch.h"
+#include "train/loss.h"
+#include "train/model.h"
+#include "train/person_loss.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <sstream>
+
+namespace faceprobe::train {
+namespace {
+
+constexpr std::int64_t kRowEvery = 10;   // steps
+constexpr int kScoreRounds = 3;          // groups of photos of a person who is measured
+constexpr Eigen::Index kLeastSkin = 200;  // pixels of the square that a group of photos must share
+
+Model model_of(const std::filesystem::path& weights) {
+  const net::ModelInfo info = net::read_model_info(weights);
+  if (info.architecture != net::kUNetArchitecture) {
+    throw Error(ExitCode::kInput, weights.string() + " holds the network \"" + info.architecture +
+                                      "\"; what is finetuned is unet.");
+  }
+  TrainConfig config;
+  config.network = info.options_json;
+  Model model = make_model(config);
+  net::load_weights(*model.module, weights);
+  return model;
+}
+
+// One photo as a batch of its own, padded to a multiple; `padded` owns the values.
+Batch batch_of(net::PaddedPicture& padded) {
+  return {net::tensor_view(padded.linear), net::tensor_view(padded.clip), net::tensor_view(padded.mask), {}, {}};
+}
+
+int multiple_of(const Model& model) { return std::dynamic_pointer_cast<net::UNetImpl>(model.module)->multiple(); }
+
+struct Shown {
+  net::PaddedPicture padded;
+  torch::Tensor highlight;  // with its graph
+};
+
+Shown show(const Model& model, const PersonPhoto& photo, const ByteImage& mask, int multiple) {
+  Shown shown{net::pad_picture(photo.linear, photo.clipped, mask, multiple), {}};
+  shown.highlight = model.forward(batch_of(shown.padded));
+  return shown;
+}
+
+Image layer_of(const Shown& shown, const PersonPhoto& photo) {
+  return net::crop_to_picture(shown.highlight.detach(), photo.linear.width(), photo.linear.height());
+}
+
+// A gradient for the padded tensor; nothing acts on the padding.
+torch::Tensor padded_gradient(const Image& gradient, const torch::Tensor& like) {
+  Image copy = gradient;
+  torch::Tensor whole = torch::zeros_like(like);
+  whole.narrow(2, 0, gradient.height()).narrow(3, 0, gradient.width()).copy_(net::tensor_view(copy));
+  return whole;
+}
+
+// `count` different photos of a person.
+std::vector<std::size_t> drawn(std::size_t available, int count, Random random) {
+  std::vector<std::size_t> order(available);
+  for (std::size_t i = 0; i < available; ++i) order[i] = i;
+  for (std::size_t i = available - 1; i > 0; --i)
+    std::swap(order[i], order[static_cast<std::size_t>(random.below(static_cast<int>(i) + 1))]);
+  order.resize(std::min(available, static_cast<std::size_t>(count)));
+  return order;
+}
+
+// Nothing when the photos show too little in common.
+std::optional<PersonPhotos> group_of(const PersonSet& person, const std::vector<std::size_t>& chosen,
+                                     const PersonLossOptions& options) {
+  std::vector<PersonPhoto> photos;
+  for (const std::size_t i : chosen) photos.push_back(*person.photos[i]);
+  try {
+    PersonPhotos group(std::move(photos), person.regions, options);
+    if (group.pixels() >= kLeastSkin) return group;
+  } catch (const std::invalid_argument&) {  // no common skin at all
+  }
+  return std::nullopt;
+}
+
+class Finetuning {
+ public:
+  Finetuning(const FinetuneRun& run, const FinetuneHooks& hooks)
+      : run_(run), hooks_(hooks), model_(model_of(run.start)), multiple_(multiple_of(model_)),
+        optimizer_(model_.module->parameters(),
+                   torch::optim::AdamWOptions(run.config.learning_rate).betas({0.9, 0.99}).weight_decay(0)) {
+    split_people();
+    if (run.config.mode == "paper") loss_ = {.rank1 = false, .blur_sigma_px = 0, .guard_weight = 0};
+    if (run.config.synthetic_batch > 0) {
+      faces_.emplace(run.synthetic);
+      faces_config_.batch = run.config.synthetic_batch;
+      faces_config_.seed = run.config.seed;
+      faces_config_.steps = run.config.steps;
+      source_.emplace(*faces_, faces_config_, 0);
+    }
+  }
+
+  FinetuneReport go() {
+    io::create_folder(run_.folder);
+    FinetuneReport report;
+    report.before = score();
+    FinetuneRow sum;
+    std::int64_t counted = 0;
+    std::int64_t step = 0;
+    for (; step < run_.config.steps; ++step) {
+      if (hooks_.stop && hooks_.stop()) break;
+      counted += one_step(step, sum) ? 1 : 0;
+      if ((step + 1) % kRowEvery != 0 && step + 1 != run_.config.steps) continue;
+      const double n = static_cast<double>(std::max<std::int64_t>(1, counted));
+      const double steps = static_cast<double>(kRowEvery);
+      report.rows.push_back({step + 1, sum.residual / n, sum.energy / n, sum.guards / n, sum.synthetic_loss / steps});
+      if (hooks_.progress) hooks_.progress(report.rows.back(), run_.config.steps);
+      sum = {};
+      counted = 0;
+    }
+    report.finished = step == run_.config.steps;
+    report.after = score();
+    report.weights = run_.folder / "weights.safetensors";
+    save(report);
+    return report;
+  }
+
+ private:
+  void split_people() {
+    for (const PersonSet& person : run_.people) {
+      // By name, so that a person of two folders of that name is on one side.
+      const std::string name = person.name.substr(person.name.rfind('/') + 1);
+      std::uint64_t key = 0;
+      for (const char c : name) key = key * 131 + static_cast<std::uint64_t>(std::tolower(static_cast<unsigned char>(c)));
+      const bool held_out = Random({run_.config.seed, 0x9E0, key}).uniform() < run_.config.held_out_share;
+      (held_out ? held_out_ : trained_).push_back(&person);
+    }
+    if (trained_.empty() || held_out_.empty()) {
+      throw Error(ExitCode::kInput, "Of " + std::to_string(run_.people.size()) + " people with enough photos " +
+                                        std::to_string(held_out_.size()) + " would be held out and " +
+                                        std::to_string(trained_.size()) +
+                                        " trained on; give more people, or another held-out share or seed.");
+    }
+  }
+
+  // False when the photos that were drawn have too little in common; the synthetic faces are learnt from all the same.
+  bool one_step(std::int64_t step, FinetuneRow& sum) {
+    optimizer_.zero_grad();
+    const bool used = add_people(step, sum);
+    if (source_) {
+      const Batch batch = source_->next();
+      torch::Tensor loss = highlight_loss(model_.forward(batch), batch, faces_config_.loss);
+      loss.backward();
+      sum.synthetic_loss += loss.item<double>();
+    }
+    const double norm = torch::nn::utils::clip_grad_norm_(model_.module->parameters(), run_.config.largest_gradient);
+    if (!std::isfinite(norm)) {
+      throw Error(ExitCode::kUnexpected, "The loss is no number any more after step " + std::to_string(step) +
+                                             "; lower the learning rate.");
+    }
+    optimizer_.step();
+    return used;
+  }
+
+  bool add_people(std::int64_t step, FinetuneRow& sum) {
+    Random random({run_.config.seed, 0xF17E, static_cast<std::uint64_t>(step)});
+    const PersonSet& person = *trained_[static_cast<std::size_t>(random.below(static_cast<int>(trained_.size())))];
+    const std::vector<std::size_t> chosen = drawn(person.photos.size(), run_.config.photos, random.split(1));
+    const std::optional<PersonPhotos> group = group_of(person, chosen, loss_);
+    if (!group) return false;
+    std::vector<Shown> shown;
+    std::vector<Image> layers;
+    for (const std::size_t i : chosen) {
+      shown.push_back(show(model_, *person.photos[i], person.masks[i], multiple_));
+      layers.push_back(layer_of(shown.back(), *person.photos[i]));
+    }
+    const PersonLoss loss = group->loss(layers);
+    for (std::size_t k = 0; k < shown.size(); ++k) {
+      shown[k].highlight.backward(run_.config.weight * padded_gradient(loss.by_highlight[k], shown[k].highlight));
+    }
+    sum.residual += loss.residual;
+    sum.energy += loss.energy;
+    sum.guards += loss.guards;
+    return true;
+  }
+
+  PeopleScore score() {
+    const torch::NoGradGuard no_gradients;
+    PeopleScore out;
+    for (const PersonSet* person : held_out_) {
+      PeopleScore own;
+      for (int round = 0; round < kScoreRounds; ++round) {
+        const std::vector<std::size_t> chosen = drawn(person->photos.size(), run_.config.photos,
+                                                      Random({run_.config.seed, 0x5C03, static_cast<std::uint64_t>(round)}));
+        const std::optional<PersonPhotos> group = group_of(*person, chosen, loss_);
+        if (!group) continue;
+        std::vector<Image> layers, none;
+        for (const std::size_t i : chosen) {
+          const PersonPhoto& photo = *person->photos[i];
+          layers.push_back(layer_of(show(model_, photo, person->masks[i], multiple_), photo));
+          none.emplace_back(photo.linear.width(), photo.linear.height(), 3);
+        }
+        const PersonLoss loss = group->loss(layers);
+        own.residual += loss.residual;
+        own.energy += loss.energy;
+        own.untouched += group->loss(none).residual;
+        ++own.people;
+      }
+      if (own.people == 0) continue;
+      ++out.people;
+      out.residual += own.residual / own.people;
+      out.energy += own.energy / own.people;
+      out.untouched += own.untouched / own.people;
+    }
+    if (out.people == 0) {
+      throw Error(ExitCode::kInput, "No held-out person has photos that show the same skin; give more people.");
+    }
+    out.residual /= out.people;
+    out.energy /= out.people;
+    out.untouched /= out.people;
+    return out;
+  }
+
+  void save(const FinetuneReport& report) {
+    const FinetuneConfig& config = run_.config;
+    const nlohmann::ordered_json json = {{"mode", config.mode},
+                                         {"steps", report.rows.empty() ? 0 : report.rows.back().step},
+                                         {"photos", config.photos},
+                                         {"synthetic_batch", config.synthetic_batch},
+                                         {"learning_rate", config.learning_rate},
+                                         {"weight", config.weight},
+                                         {"seed", config.seed},
+                                         {"people", trained_.size()},
+                                         {"start", net::read_model_info(run_.start).sha256}};
+    std::map<std::string, std::string> metadata = model_.metadata;
+    metadata["finetune"] = json.dump(1);
+    net::save_weights(*model_.module, report.weights, metadata, true);
+    std::ostringstream csv;
+    csv << "step,residual,energy,guards,synthetic_loss\n";
+    for (const FinetuneRow& row : report.rows) {
+      csv << row.step << ',' << row.residual << ',' << row.energy << ',' << row.guards << ',' << row.synthetic_loss << '\n';
+    }
+    io::write_file_atomically(run_.folder / "log.csv", csv.str());
+  }
+
+  const FinetuneRun& run_;
+  const FinetuneHooks& hooks_;
+  Model model_;
+  int multiple_;
+  torch::optim::AdamW optimizer_;
+  PersonLossOptions loss_;
+  std::vector<const PersonSet*> trained_, held_out_;
+  std::optional<synth::ShardReader> faces_;
+  TrainConfig faces_config_;
+  std::optional<BatchSource> source_;  // last: it reads faces_
+};
+
+std::string outside(const char* name, double value, const char* allowed) {
+  std::ostringstream text;
+  text << name << " is " << value << "; allowed is " << allowed << '.';
+  return text.str();
+}
+
+}  // namespace
+
+std::string FinetuneConfig::validate() const {
+  if (mode != "default" && mode != "paper") return "mode is \"" + mode + "\"; there are default and paper.";
+  if (steps < 1 || steps > 1'000'000) return outside("steps", static_cast<double>(steps), "1 to 1e6");
+  if (photos < 2 || photos > 64) return outside("photos", photos, "2 to 64");
+  if (synthetic_batch < 0 || synthetic_batch > 4096) return outside("synthetic_batch", synthetic_batch, "0 to 4096");
+  if (!(learning_rate > 0 && learning_rate <= 1)) return outside("learning_rate", learning_rate, "above 0, to 1");
+  if (!(weight >= 0 && weight <= 1000)) return outside("weight", weight, "0 to 1000");
+  if (!(largest_gradient > 0 && largest_gradient <= 1e6)) return outside("largest_gradient", largest_gradient, "above 0, to 1e6");
+  if (!(held_out_share > 0 && held_out_share < 1)) return outside("held_out_share", held_out_share, "between 0 and 1");
+  return {};
+}
+
+FinetuneReport finetune_highlight(const FinetuneRun& run, const FinetuneHooks& hooks) {
+  if (const std::string fault = run.config.validate(); !fault.empty()) throw Error(ExitCode::kUsage, fault);
+  at::set_num_threads(run.threads > 0 ? run.threads : default_thread_count());
+  return Finetuning(run, hooks).go();
+}
+
+}  // namespace faceprobe::train

@@ -1,0 +1,184 @@
+#include "faceprobe/train/people.h"
+
+#include "faceprobe/core/error.h"
+#include "faceprobe/core/region.h"
+#include "faceprobe/face/geometry.h"
+#include "faceprobe/io/data_files.h"
+#include "faceprobe/io/photo.h"
+#include "train/finetune_guards.h"
+#include "train/histogram_transfer.h"
+#include "train/person_loss.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+namespace faceprobe::train {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kLeastFacePx = 80;  // wide: below, highlights are a few pixels
+
+bool is_photo(const fs::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  return extension == ".jpg" || extension == ".jpeg" || extension == ".png" || extension == ".webp";
+}
+
+std::map<std::string, std::vector<fs::path>> photos_by_person(const fs::path& folder) {
+  std::error_code error;
+  std::map<std::string, std::vector<fs::path>> people;
+  for (fs::recursive_directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    if (it->is_regular_file() && is_photo(it->path()))
+      people[fs::relative(it->path().parent_path(), folder).generic_string()].push_back(it->path());
+  }
+  if (error) throw Error(ExitCode::kInput, folder.string() + " cannot be read: " + error.message() + ".");
+  if (people.empty()) throw Error(ExitCode::kInput, "There are no photos in " + folder.string() + ".");
+  for (auto& [name, files] : people) std::sort(files.begin(), files.end());
+  return people;
+}
+
+struct Candidate {
+  PersonPhoto photo;
+  ByteImage mask;
+};
+
+class Reader {
+ public:
+  explicit Reader(const PeopleOptions& options)
+      : options_(options), finder_(face::FinderOptions{}),
+        mesh_(face::load_canonical_mesh(io::data_file("canonical-face-model.obj"))),
+        square_(face_template(mesh_, options.square_px, TemplateLayout::kFrontal)),
+        regions_(template_regions(square_, face::triangle_regions(mesh_))) {}
+
+  const ByteImage& regions() const { return regions_; }
+
+  // Nothing when the photo is unsuitable; then `why` says so.
+  std::optional<Candidate> read(const fs::path& file, std::string& why) const {
+    const io::Photo photo = io::load_photo(file);
+    if (photo.grey) return refused(why, "it is grey");
+    face::Camera camera;
+    camera.centre_x_px = 0.5 * photo.linear.width();
+    camera.centre_y_px = 0.5 * photo.linear.height();
+    // Press photos: taken from afar.
+    camera.focal_px = photo.focal_px.value_or(2.0 * std::max(photo.linear.width(), photo.linear.height()));
+    const std::vector<face::Face> faces = finder_.find(photo.linear, camera);
+    if (faces.empty()) return refused(why, "no face was found");
+    const face::Face& face = *std::max_element(faces.begin(), faces.end(), [](const auto& a, const auto& b) {
+      return a.box.width * a.box.height < b.box.width * b.box.height;
+    });
+    if (static_cast<double>(face.box.width) < kLeastFacePx) {
+      return refused(why, "its face is " + std::to_string(static_cast<int>(face.box.width)) + " px wide");
+    }
+    return prepare(photo, face, camera, why);
+  }
+
+ private:
+  static std::nullopt_t refused(std::string& why, const std::string& reason) {
+    why = reason;
+    return std::nullopt;
+  }
+
+  std::optional<Candidate> prepare(const io::Photo& photo, const face::Face& face, const face::Camera& camera,
+                                   std::string& why) const {
+    const face::GeometryOptions geometry{.long_side_px = options_.crop_px};
+    const face::Crop crop = face::face_crop(face, photo.linear.width(), photo.linear.height(), geometry);
+    Candidate out;
+    out.photo.linear = face::crop_picture(photo.linear, crop);
+    out.photo.clipped = face::crop_flags(photo.clipped, crop);
+    const ByteImage regions = face::rasterize_regions(face, camera, mesh_, crop);
+    out.mask = ByteImage(crop.width, crop.height, 1);
+    for (std::size_t i = 0; i < regions.pixel_count(); ++i) {
+      const std::uint8_t region = regions.data()[i];
+      out.mask.data()[i] = region > 0 && region <= kSkinRegionCount ? 1 : 0;
+    }
+    WarpLandmarks landmarks{face.landmarks_px.leftCols<2>(), face.landmarks_px.col(2) * static_cast<float>(crop.scale)};
+    for (Eigen::Index i = 0; i < landmarks.photo_px.rows(); ++i) {
+      const Eigen::Vector2d at = crop.crop_from_photo(static_cast<double>(landmarks.photo_px(i, 0)),
+                                                      static_cast<double>(landmarks.photo_px(i, 1)));
+      landmarks.photo_px.row(i) = at.cast<float>().transpose();
+    }
+    out.photo.warp = face_warp(square_, landmarks, {crop.width, crop.height});
+    why = why_unsuitable(measure(out, face));
+    if (!why.empty()) return std::nullopt;
+    return out;
+  }
+
+  PhotoMeasures measure(const Candidate& candidate, const face::Face& face) const {
+    PhotoMasks masks;
+    masks.skin = ByteImage(regions_.width(), regions_.height(), 1);
+    for (std::size_t i = 0; i < regions_.pixel_count(); ++i)
+      masks.skin.data()[i] = is_probe_skin(static_cast<Region>(regions_.data()[i])) ? 1 : 0;
+    masks.seen = seen(candidate.photo.warp);
+    Image clipped(candidate.photo.linear.width(), candidate.photo.linear.height(), 1);
+    for (std::size_t i = 0; i < clipped.pixel_count(); ++i)
+      clipped.data()[i] = candidate.photo.clipped.data()[i] != 0 ? 1.0F : 0.0F;
+    const Image flat = sample(clipped, candidate.photo.warp);
+    masks.clipped = ByteImage(flat.width(), flat.height(), 1);
+    for (std::size_t i = 0; i < flat.pixel_count(); ++i) masks.clipped.data()[i] = flat.data()[i] > 0 ? 1 : 0;
+    PhotoMeasures measures = measure_photo(sample(candidate.photo.linear, candidate.photo.warp), masks);
+    measures.reprojection_share = face.reprojection_rms_px / static_cast<double>(std::max(1.0F, face.box.width));
+    return measures;
+  }
+
+  PeopleOptions options_;
+  face::FaceFinder finder_;
+  face::CanonicalMesh mesh_;
+  FaceTemplate square_;
+  ByteImage regions_;
+};
+
+// Colours of the first photo for all of them, by the skin alone.
+void match_colours(std::vector<Candidate>& photos) {
+  for (std::size_t k = 1; k < photos.size(); ++k) {
+    photos[k].photo.linear =
+        transfer_histogram(photos[k].photo.linear, photos[k].mask, photos[0].photo.linear, photos[0].mask);
+  }
+}
+
+}  // namespace
+
+std::string PeopleOptions::validate() const {
+  if (crop_px < 32 || crop_px > 1024) return "crop_px is " + std::to_string(crop_px) + "; allowed is 32 to 1024.";
+  if (square_px < 16 || square_px > 512) return "square_px is " + std::to_string(square_px) + "; allowed is 16 to 512.";
+  if (least_photos < 2 || most_photos < least_photos)
+    return "A person needs two photos or more, and most_photos not below least_photos.";
+  return {};
+}
+
+std::vector<PersonSet> load_people(const fs::path& folder, const PeopleOptions& options,
+                                   const std::function<void(const std::string&)>& progress) {
+  if (const std::string fault = options.validate(); !fault.empty()) throw Error(ExitCode::kUsage, fault);
+  const Reader reader(options);
+  std::vector<PersonSet> people;
+  for (const auto& [name, files] : photos_by_person(folder)) {
+    PersonSet person{.name = name, .photos = {}, .masks = {}, .regions = reader.regions(), .left_out = {}};
+    std::vector<Candidate> candidates;
+    for (const fs::path& file : files) {
+      if (static_cast<int>(candidates.size()) == options.most_photos) break;
+      std::string why;
+      try {
+        if (std::optional<Candidate> candidate = reader.read(file, why)) candidates.push_back(std::move(*candidate));
+      } catch (const Error& error) {
+        why = error.what();
+      }
+      if (!why.empty()) person.left_out.push_back(file.filename().string() + ": " + why);
+    }
+    if (progress) {
+      progress(name + ": " + std::to_string(candidates.size()) + " photos of " + std::to_string(files.size()) +
+               " can be used");
+    }
+    if (static_cast<int>(candidates.size()) < options.least_photos) continue;
+    if (options.match_colours) match_colours(candidates);
+    for (Candidate& candidate : candidates) {
+      person.photos.push_back(std::make_shared<const PersonPhoto>(std::move(candidate.photo)));
+      person.masks.push_back(std::move(candidate.mask));
+    }
+    people.push_back(std::move(person));
+  }
+  return people;
+}
+
+}  // namespace faceprobe::train
