@@ -2,6 +2,7 @@
 // photos (DIR/real/portraits/london_fullres, enlarged to 12 MP) at their full size, less the search for the face. Prints a Markdown table.
 
 #include "faceprobe/net/highlight_net.h"
+#include "faceprobe/core/error.h"
 #include "faceprobe/face/geometry.h"
 #include "faceprobe/io/data_files.h"
 #include "faceprobe/io/photo.h"
@@ -17,6 +18,7 @@
 #include <functional>
 #include <iostream>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -77,7 +79,9 @@ void report(const std::filesystem::path& data, const std::filesystem::path& weig
     estimate_options.classical.reset();
     if (classical) estimate_options.classical = highlight::Separator::kYang;
     const pipeline::Estimator estimator(estimate_options);
-    for (const auto& file : bench::photos_below(data / "real" / "portraits" / "london_fullres")) {
+    const std::vector<std::filesystem::path> files = bench::photos_below(data / "real" / "portraits" / "london_fullres");
+    if (files.empty()) throw Error(ExitCode::kInput, "There are no photos in real/portraits/london_fullres.");
+    for (const auto& file : files) {
       const io::Photo photo = enlarged(io::load_photo(file));
       char size[64];
       std::snprintf(size, sizeof size, "%.1f MP", static_cast<double>(photo.linear.pixel_count()) * 1e-6);

@@ -18,11 +18,15 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <map>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace {
 
@@ -62,8 +66,9 @@ void draw_sheet(const pipeline::Estimator& estimator, const std::vector<fs::path
   for (const fs::path& file : files) {
     if (auto face = largest_face(estimator, io::load_photo(file))) faces.push_back(std::move(*face));
   }
+  if (faces.empty())
+    throw Error(ExitCode::kInput, "There are no photos with a face for " + to.filename().string() + ".");
   const int rows = (static_cast<int>(faces.size()) + kAcross - 1) / kAcross;
-  if (rows == 0) return;
   ByteImage sheet(3 * kAcross * kCellPx, rows * kCellPx, 3);
   for (std::size_t i = 0; i < faces.size(); ++i) {
     const int x = static_cast<int>(i) % kAcross * 3 * kCellPx;
@@ -131,6 +136,7 @@ void report_agreement(const fs::path& london, const std::vector<pipeline::Estima
       people[file.stem().string().substr(0, 3)][static_cast<std::size_t>(expression)] = file;
     ++expression;
   }
+  if (people.empty()) throw Error(ExitCode::kInput, "There are no people in " + london.string() + ".");
   const face::CanonicalMesh mesh = face::load_canonical_mesh(io::data_file("canonical-face-model.obj"));
   const train::FaceTemplate square = train::face_template(mesh, kSquarePx, train::TemplateLayout::kFrontal);
   const ByteImage regions = train::template_regions(square, face::triangle_regions(mesh));
@@ -174,6 +180,7 @@ int main(int argc, char** argv) {
     pipeline::EstimateOptions network;
     network.classical.reset();
     network.highlight_weights = weights;
+    network.layer_px = 2 * kSquarePx;  // more would alias in the square
     if (sheets) {
       io::create_folder(output);
       const pipeline::Estimator estimator(network);
@@ -186,6 +193,7 @@ int main(int argc, char** argv) {
     for (const auto separator : {highlight::Separator::kTan, highlight::Separator::kYang, highlight::Separator::kShen}) {
       settings.emplace_back();
       settings.back().classical = separator;
+      settings.back().layer_px = network.layer_px;
     }
     report_agreement(real / "portraits" / "london", settings);
   } catch (const std::exception& error) {

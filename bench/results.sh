@@ -9,7 +9,8 @@
 #   bench/results.sh --data DIR --faces FACES ...                for highlight: the dev faces of docs/training.md; left as it
 #                                                                is without them
 #
-# BUILD_DIR (build/test) is built with FACEPROBE_BUILD_BENCH=ON, and FACEPROBE_TRAIN=ON for highlight and highlight_photos. Ends with 1 when a benchmark misses its bar; its section is
+# BUILD_DIR (build/test) is built with FACEPROBE_BUILD_BENCH=ON, and FACEPROBE_TRAIN=ON for highlight and highlight_photos; speed and
+# synth_rate measure the command of build/release, which scripts/build.sh makes. Ends with 1 when a benchmark misses its bar; its section is
 # written all the same.
 set -euo pipefail
 
@@ -60,7 +61,7 @@ command_of() {
     highlight) echo "BUILD/bin/faceprobe eval highlight --data FACES --weights net=models/highlight.safetensors" ;;
     speed) echo "bench/speed.sh" ;;
     synth_speed) echo "BUILD/bin/bench_synth_speed" ;;
-    synth_rate) echo "bench/synth_rate.sh --data DIR BUILD" ;;
+    synth_rate) echo "bench/synth_rate.sh --data DIR" ;;
     *) echo "BUILD/bin/bench_$1 --data DIR" ;;
   esac
 }
@@ -70,7 +71,7 @@ run_section() {
     highlight) "$build/bin/faceprobe" eval highlight --data "$faces" --weights net="$root/models/highlight.safetensors" ;;
     speed) "$root/bench/speed.sh" ;;
     synth_speed) "$build/bin/bench_synth_speed" ;;
-    synth_rate) "$root/bench/synth_rate.sh" --data "$data" "$build" ;;
+    synth_rate) "$root/bench/synth_rate.sh" --data "$data" ;;
     *) "$build/bin/bench_$1" --data "$data" ;;
   esac
 }

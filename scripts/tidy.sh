@@ -26,5 +26,8 @@ if [ ${#patterns[@]} = 0 ]; then patterns=("/(src|apps)/"); fi
 "$root/scripts/setup.sh"
 cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_COMPILER=clang++ \
   -DCMAKE_EXPORT_COMPILE_COMMANDS=ON -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DCMAKE_UNITY_BUILD=$unity \
-  -DCMAKE_UNITY_BUILD_BATCH_SIZE=16 -DFACEPROBE_BUILD_TESTS=OFF -DFACEPROBE_BUILD_BENCH=OFF -DFACEPROBE_TRAIN=OFF >/dev/null
+  -DCMAKE_UNITY_BUILD_BATCH_SIZE=16 -DFACEPROBE_BUILD_TESTS=OFF -DFACEPROBE_BUILD_BENCH=OFF -DFACEPROBE_SYNTH=ON -DFACEPROBE_TRAIN=OFF >/dev/null
+for file in "$@"; do
+  grep -qF "\"$(realpath "$file")\"" "$build/compile_commands.json" || { echo "$file is not among what is checked." >&2; exit 2; }
+done
 run-clang-tidy -quiet -p "$build" -j "${JOBS:-$(nproc)}" "${patterns[@]}"

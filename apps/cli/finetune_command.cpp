@@ -26,7 +26,8 @@ int run(Options options) {
   train::FinetuneRun run;
   options.photos.least_photos = options.config.photos;
   options.photos.most_photos = std::max(options.photos.most_photos, options.config.photos);
-  run.people = train::load_people(options.people, options.photos, [](const std::string& text) { spdlog::info("{}", text); });
+  run.people =
+      train::load_people(options.people, options.photos, [](const std::string& text) { spdlog::info("{}", text); });
   run.config = options.config;
   run.start = options.start;
   run.synthetic = options.synthetic;
@@ -41,8 +42,10 @@ int run(Options options) {
   };
   hooks.stop = [] { return interrupted.load(); };
   const train::FinetuneReport report = train::finetune_highlight(run, hooks);
-  fmt::print("{} people held out\n\n| | beyond rank one | no highlights taken off | mean highlight |\n| --- | ---: | ---: | ---: |\n",
-             report.before.people);
+  fmt::print(
+      "{} people held out\n\n| | beyond rank one | no highlights taken off | mean highlight |\n| --- | ---: | ---: | "
+      "---: |\n",
+      report.before.people);
   const auto row = [](const char* name, const train::PeopleScore& score) {
     fmt::print("| {} | {:.5f} | {:.5f} | {:.4f} |\n", name, score.residual, score.untouched, score.energy);
   };
@@ -61,7 +64,8 @@ void add_finetune(CLI::App& program, Action& action) {
       ->required()
       ->check(CLI::ExistingDirectory);
   command->add_option("--start", options->start, "weights to begin with")->required();
-  command->add_option("--data", options->synthetic, "folder that `faceprobe synth` wrote, for every step's synthetic faces")
+  command
+      ->add_option("--data", options->synthetic, "folder that `faceprobe synth` wrote, for every step's synthetic faces")
       ->required();
   command->add_option("-o,--output", options->output, "folder for weights and log")->required();
   command->add_option("--mode", options->config.mode, "default, or paper: second singular value, nothing blurred")

@@ -3,6 +3,13 @@
 #include <oneapi/dnnl/dnnl.hpp>
 
 #include <stdexcept>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#if DNNL_CPU_THREADING_RUNTIME != DNNL_RUNTIME_OMP
+#error "oneDNN must be built with OpenMP, which is how its number of threads is set"
+#endif
 
 namespace faceprobe::net {
 namespace {

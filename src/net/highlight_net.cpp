@@ -9,6 +9,8 @@
 #include "net/padded_picture.h"
 #include "net/unet_runner.h"
 
+#include <algorithm>
+
 // Of the OpenMP runtime that oneDNN brings. Declared here because clang has no omp.h without a runtime of its own.
 extern "C" int omp_get_max_threads();
 extern "C" void omp_set_num_threads(int);

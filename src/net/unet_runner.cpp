@@ -1,6 +1,7 @@
 #include "net/unet_runner.h"
 
 #include <algorithm>
+#include <functional>
 #include <stdexcept>
 
 namespace faceprobe::net {

@@ -3,6 +3,7 @@
 
 #include "faceprobe/io/safetensors.h"
 
+#include <cstdint>
 #include <set>
 #include <string>
 #include <vector>

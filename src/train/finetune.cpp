@@ -24,15 +24,15 @@
 namespace faceprobe::train {
 namespace {
 
-constexpr std::int64_t kRowEvery = 10;   // steps
-constexpr int kScoreRounds = 3;          // groups of photos of a person who is measured
+constexpr std::int64_t kRowEvery = 10;    // steps
+constexpr int kScoreRounds = 3;           // groups of photos of a person who is measured
 constexpr Eigen::Index kLeastSkin = 200;  // pixels of the square that a group of photos must share
 
 Model model_of(const std::filesystem::path& weights) {
   const net::ModelInfo info = net::read_model_info(weights);
   if (info.architecture != net::kUNetArchitecture) {
-    throw Error(ExitCode::kInput, weights.string() + " holds the network \"" + info.architecture +
-                                      "\"; what is finetuned is unet.");
+    throw Error(ExitCode::kInput,
+                weights.string() + " holds the network \"" + info.architecture + "\"; what is finetuned is unet.");
   }
   TrainConfig config;
   config.network = info.options_json;
@@ -142,7 +142,8 @@ class Finetuning {
       // By name, so that a person of two folders of that name is on one side.
       const std::string name = person.name.substr(person.name.rfind('/') + 1);
       std::uint64_t key = 0;
-      for (const char c : name) key = key * 131 + static_cast<std::uint64_t>(std::tolower(static_cast<unsigned char>(c)));
+      for (const char c : name)
+        key = key * 131 + static_cast<std::uint64_t>(std::tolower(static_cast<unsigned char>(c)));
       const bool held_out = Random({run_.config.seed, 0x9E0, key}).uniform() < run_.config.held_out_share;
       (held_out ? held_out_ : trained_).push_back(&person);
     }
@@ -166,8 +167,8 @@ class Finetuning {
     }
     const double norm = torch::nn::utils::clip_grad_norm_(model_.module->parameters(), run_.config.largest_gradient);
     if (!std::isfinite(norm)) {
-      throw Error(ExitCode::kUnexpected, "The loss is no number any more after step " + std::to_string(step) +
-                                             "; lower the learning rate.");
+      throw Error(ExitCode::kUnexpected,
+                  "The loss is no number any more after step " + std::to_string(step) + "; lower the learning rate.");
     }
     optimizer_.step();
     return used;
@@ -201,8 +202,9 @@ class Finetuning {
     for (const PersonSet* person : held_out_) {
       PeopleScore own;
       for (int round = 0; round < kScoreRounds; ++round) {
-        const std::vector<std::size_t> chosen = drawn(person->photos.size(), run_.config.photos,
-                                                      Random({run_.config.seed, 0x5C03, static_cast<std::uint64_t>(round)}));
+        const std::vector<std::size_t> chosen =
+            drawn(person->photos.size(), run_.config.photos,
+                  Random({run_.config.seed, 0x5C03, static_cast<std::uint64_t>(round)}));
         const std::optional<PersonPhotos> group = group_of(*person, chosen, loss_);
         if (!group) continue;
         std::vector<Image> layers, none;
@@ -249,7 +251,8 @@ class Finetuning {
     std::ostringstream csv;
     csv << "step,residual,energy,guards,synthetic_loss\n";
     for (const FinetuneRow& row : report.rows) {
-      csv << row.step << ',' << row.residual << ',' << row.energy << ',' << row.guards << ',' << row.synthetic_loss << '\n';
+      csv << row.step << ',' << row.residual << ',' << row.energy << ',' << row.guards << ',' << row.synthetic_loss
+          << '\n';
     }
     io::write_file_atomically(run_.folder / "log.csv", csv.str());
   }
@@ -281,7 +284,8 @@ std::string FinetuneConfig::validate() const {
   if (synthetic_batch < 0 || synthetic_batch > 4096) return outside("synthetic_batch", synthetic_batch, "0 to 4096");
   if (!(learning_rate > 0 && learning_rate <= 1)) return outside("learning_rate", learning_rate, "above 0, to 1");
   if (!(weight >= 0 && weight <= 1000)) return outside("weight", weight, "0 to 1000");
-  if (!(largest_gradient > 0 && largest_gradient <= 1e6)) return outside("largest_gradient", largest_gradient, "above 0, to 1e6");
+  if (!(largest_gradient > 0 && largest_gradient <= 1e6))
+    return outside("largest_gradient", largest_gradient, "above 0, to 1e6");
   if (!(held_out_share > 0 && held_out_share < 1)) return outside("held_out_share", held_out_share, "between 0 and 1");
   return {};
 }

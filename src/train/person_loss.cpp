@@ -73,11 +73,11 @@ PersonLoss PersonPhotos::loss(std::span<const Image> highlights) const {
   out.residual = low_rank.value;
   for (std::size_t k = 0; k < photos_.size(); ++k) {
     // The diffuse layer is the photo less the highlight, hence the sign.
-    Eigen::MatrixX3d by_flat = -chromaticity_->backward(flat_[k] - flat_highlight[k],
-                                                        low_rank.gradient.row(static_cast<Eigen::Index>(k)));
+    Eigen::MatrixX3d by_flat =
+        -chromaticity_->backward(flat_[k] - flat_highlight[k], low_rank.gradient.row(static_cast<Eigen::Index>(k)));
     if (options_.guard_weight > 0) {
-      for (const Penalty& guard : {black_diffuse(flat_[k], flat_highlight[k], mask),
-                                   coloured_highlight(flat_[k], flat_highlight[k], mask)}) {
+      for (const Penalty& guard :
+           {black_diffuse(flat_[k], flat_highlight[k], mask), coloured_highlight(flat_[k], flat_highlight[k], mask)}) {
         out.guards += options_.guard_weight * guard.value;
         by_flat += options_.guard_weight * guard.gradient;
       }

@@ -37,7 +37,8 @@ struct PersonLossOptions {
 struct PersonLoss {
   double residual = 0;  // of the chromaticities, per pixel; see train/low_rank.h
   double guards = 0;    // sum over the photos, weighted
-  double energy = 0;    // mean over photos and pixels of the highlight's mean channel, in the square: what must not run away
+  double energy =
+      0;  // mean over photos and pixels of the highlight's mean channel, in the square: what must not run away
   std::vector<Image> by_highlight;  // of residual + guards; the size of each crop
 };
 

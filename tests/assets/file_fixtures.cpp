@@ -2,7 +2,6 @@
 
 #include <hdf5.h>
 #include <matio.h>
-#include <unistd.h>
 #include <zip.h>
 #include <fstream>
 

@@ -66,17 +66,7 @@ double angle_deg(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
   return degrees(Eigen::AngleAxisd(a.rotation().transpose() * b.rotation()).angle());
 }
 
-TemporaryFile::TemporaryFile(const std::string& content) {
-  std::string folder = (std::filesystem::temp_directory_path() / "faceprobe-face-XXXXXX").string();
-  if (mkdtemp(folder.data()) == nullptr) throw std::runtime_error("no temporary folder");
-  path_ = std::filesystem::path(folder) / "file";
-  std::ofstream(path_, std::ios::binary) << content;
-}
-
-TemporaryFile::~TemporaryFile() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_.parent_path(), ignored);
-}
+TemporaryFile::TemporaryFile(const std::string& content) { std::ofstream(path(), std::ios::binary) << content; }
 
 std::string file_text(const std::filesystem::path& path) {
   std::ostringstream text;

@@ -2,6 +2,7 @@
 
 #include "faceprobe/face/canonical_mesh.h"
 #include "faceprobe/face/face.h"
+#include "support/temp_folder.h"
 
 #include <Eigen/Geometry>
 #include <filesystem>
@@ -27,13 +28,10 @@ double angle_deg(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b);
 class TemporaryFile {
  public:
   explicit TemporaryFile(const std::string& content);
-  ~TemporaryFile();
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-  const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path path() const { return folder_ / "file"; }
 
  private:
-  std::filesystem::path path_;
+  testing::TempFolder folder_;
 };
 
 std::string file_text(const std::filesystem::path& path);

@@ -102,6 +102,7 @@ TEST(Geometry, FaceIsSeenFromTheFront) {
   const Crop crop = face_crop(face, 640, 480, options);
   EXPECT_LE(crop.scale, 1.0);
   const FaceGeometry g = rasterize(face, kCamera, canonical_mesh(), crop);
+  EXPECT_EQ(rasterize_regions(face, kCamera, canonical_mesh(), crop), g.region);
   int front = 0;
   for (int y = 0; y < crop.height; ++y) {
     for (int x = 0; x < crop.width; ++x) {

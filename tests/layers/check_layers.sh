@@ -44,6 +44,8 @@ awk '
 
     if (target ~ /^(torch|ATen|c10)\// && FILENAME !~ /^src\/(net\/torch|train)\//)
       fault("torch outside src/net/torch and src/train")
+    if (quoted && target ~ /(^|\/)net\/torch(\/|_)/ && FILENAME !~ /^(include\/faceprobe\/net|src\/net\/torch|src\/train|apps|tests|bench)\//)
+      fault("what stands on torch outside src/net/torch, src/train and apps")
     if (target ~ /(^|\/)\.\.?\//) fault("a relative include; write \"room/name.h\"")
 
     count = split(target, step, "/")

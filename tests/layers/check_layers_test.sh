@@ -45,6 +45,7 @@ expect "a library that includes an app" "pipeline may not include apps" src/pipe
 expect "an internal header in a public one" "internal" include/faceprobe/io/leak.h '#include "io/header.h"'
 expect "torch in lighting" "torch" src/lighting/net.cpp '#include <torch/torch.h>'
 expect "torch in what runs networks" "torch" src/net/net.cpp '#include <torch/torch.h>'
+expect "what stands on torch, in the rooms of every build" "torch" src/pipeline/net.cpp '#include "faceprobe/net/torch_highlight_net.h"'
 expect "a relative include" "relative" src/lighting/relative.cpp '#include "../face/face.h"'
 expect "a room that is not in the plan" "not a room" src/io/other.cpp '#include "faceprobe/cellar/wine.h"'
 mapfile -t lines < <(seq -f '// %g' 601)

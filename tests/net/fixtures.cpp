@@ -4,7 +4,6 @@
 #include "net/torch/mscr.h"
 #include "net/torch/weights.h"
 
-#include <unistd.h>
 #include <random>
 
 namespace faceprobe::net::testing {

@@ -68,7 +68,7 @@ EnvMap three_lamps() {
 
 TEST_P(Export, LampsAreWhereTheToolsOwnFormulaLooksForThem) {
   const Tool& tool = GetParam();
-  const testing::TemporaryFolder folder;
+  const testing::TempFolder folder;
   for (const char* extension : {".exr", ".hdr"}) {
     const std::filesystem::path path = folder.path() / (std::string("map") + extension);
     io::write_env_map(path, three_lamps(), tool.orientation);

@@ -71,15 +71,4 @@ io::Photo blank(int width, int height) {
   return out;
 }
 
-TemporaryFolder::TemporaryFolder() {
-  std::string folder = (std::filesystem::temp_directory_path() / "faceprobe-pipeline-XXXXXX").string();
-  if (mkdtemp(folder.data()) == nullptr) throw std::runtime_error("no temporary folder");
-  path_ = folder;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
-
 }  // namespace faceprobe::pipeline::testing

@@ -3,10 +3,13 @@
 
 #include "faceprobe/io/photo.h"
 #include "faceprobe/pipeline/estimate.h"
+#include "support/temp_folder.h"
 
 #include <filesystem>
 
 namespace faceprobe::pipeline::testing {
+
+using faceprobe::testing::TempFolder;
 
 std::filesystem::path portrait_file();
 const io::Photo& portrait();
@@ -17,18 +20,5 @@ io::Photo mirrored(const io::Photo& photo);            // left and right swapped
 io::Photo dimmed(const io::Photo& photo, float gain);  // linear values times gain
 io::Photo twice_side_by_side(const io::Photo& photo);
 io::Photo blank(int width, int height);
-
-// A folder of its own that goes with the object.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 }  // namespace faceprobe::pipeline::testing

@@ -86,7 +86,7 @@ TEST(Report, SourceNamesMayBeAnyBytes) {
 }
 
 TEST(Outputs, OneFaceFillsTheFolderItself) {
-  const testing::TemporaryFolder folder;
+  const testing::TempFolder folder;
   const fs::path target = folder.path() / "not" / "there yet";
   const auto written = write_outputs(target, portrait_estimate(), portrait(), EstimateOptions(), "portrait.jpg");
   std::set<std::string> wanted = files_of_a_face();
@@ -104,7 +104,7 @@ TEST(Outputs, SeveralFacesGetAFolderEach) {
   const io::Photo two = twice_side_by_side(portrait());
   const Estimate estimate = Estimator(options).estimate(two);
   ASSERT_EQ(estimate.faces.size(), 2U);
-  const testing::TemporaryFolder folder;
+  const testing::TempFolder folder;
   OutputOptions output;
   output.layers = false;
   write_outputs(folder.path(), estimate, two, options, "two.jpg", output);

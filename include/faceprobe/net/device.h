@@ -1,5 +1,6 @@
 #pragma once
-// Where the networks run: the processor, or one NVIDIA card. Only for the networks; everything else runs on the processor.
+// Where the networks run: the processor, or one NVIDIA card. Only for training networks and measuring them
+// (torch_highlight_net.h, in builds with -DFACEPROBE_TRAIN=ON); everything else runs on the processor.
 //
 //   const net::Device device = net::device_from_name("auto");   // the first card if there is one, else the processor
 //   std::cerr << net::device_name(device) << '\n';              // "cuda:0"

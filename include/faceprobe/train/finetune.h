@@ -25,10 +25,10 @@ namespace faceprobe::train {
 struct FinetuneConfig {
   std::string mode = "default";  // "default": distance to rank one, blurred chroma; "paper": the second singular value
   std::int64_t steps = 400;
-  int photos = 4;                // of one person in a step (paper: 4)
-  int synthetic_batch = 8;       // synthetic faces in a step; 0 = none
+  int photos = 4;           // of one person in a step (paper: 4)
+  int synthetic_batch = 8;  // synthetic faces in a step; 0 = none
   double learning_rate = 1e-4;
-  double weight = 3.0;           // of the loss on people against that on synthetic faces
+  double weight = 3.0;  // of the loss on people against that on synthetic faces
   double largest_gradient = 1.0;
   double held_out_share = 0.25;  // of the people, to measure on
   std::uint64_t seed = 1;

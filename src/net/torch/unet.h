@@ -48,7 +48,7 @@ class UNetImpl : public torch::nn::Module {
   torch::Tensor forward(const torch::Tensor& x);
 
   const UNetOptions& options() const { return options_; }
-  int multiple() const { return 1 << options_.widths.size(); }
+  int multiple() const { return options_.multiple(); }
 
  private:
   UNetOptions options_;

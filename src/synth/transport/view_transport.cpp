@@ -7,6 +7,7 @@
 #include "synth/transport/vertex_mix.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <stdexcept>
 
@@ -145,6 +146,8 @@ class HairRows {
  private:
   int traced_beside(int point) const {
     for (int q = points_.first_near[static_cast<std::size_t>(point)];; ++q) {
+      assert(q <
+             points_.first_near[static_cast<std::size_t>(point) + 1]);  // every one that is not traced has such a neighbour
       const int other = points_.near_point[static_cast<std::size_t>(q)];
       if (points_.traced[static_cast<std::size_t>(other)] != 0) return other;
     }

@@ -1,7 +1,7 @@
 #include "synth/wardrobe/glasses.h"
 
 #include "faceprobe/core/angles.h"
-#include "synth/wardrobe/noise.h"
+#include "synth/wardrobe/draw.h"
 #include "synth/wardrobe/shapes.h"
 
 #include <Eigen/Geometry>

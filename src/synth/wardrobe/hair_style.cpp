@@ -1,5 +1,6 @@
 #include "synth/wardrobe/hair_style.h"
 
+#include "synth/wardrobe/draw.h"
 #include "synth/wardrobe/noise.h"
 
 #include <Eigen/Geometry>

@@ -2,6 +2,7 @@
 
 #include "faceprobe/core/angles.h"
 #include "synth/wardrobe/cloth.h"
+#include "synth/wardrobe/draw.h"
 #include "synth/wardrobe/noise.h"
 #include "synth/wardrobe/shapes.h"
 

@@ -1,7 +1,6 @@
 #pragma once
-// Smooth noise in space, from a seed; and random floats.
+// Smooth noise in space, from a seed.
 
-#include "faceprobe/core/random.h"
 #include "faceprobe/core/smooth_step.h"
 
 #include <Eigen/Core>
@@ -9,8 +8,6 @@
 #include <cstdint>
 
 namespace faceprobe::synth {
-
-inline float draw(Random& random, double low, double high) { return static_cast<float>(random.between(low, high)); }
 
 inline float lattice_value(std::uint64_t seed, int x, int y, int z) {
   std::uint64_t h = seed ^ (static_cast<std::uint64_t>(static_cast<std::uint32_t>(x)) * 0x9E3779B97F4A7C15ULL) ^

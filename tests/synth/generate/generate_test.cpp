@@ -2,6 +2,7 @@
 
 #include "faceprobe/core/error.h"
 #include "faceprobe/synth/person.h"
+#include "support/temp_folder.h"
 #include "synth/generate/small_world.h"
 
 #include <gtest/gtest.h>
@@ -24,8 +25,8 @@ std::map<std::string, std::string> bytes_of(const std::filesystem::path& folder)
 
 TEST(Generate, TheBytesDoNotDependOnThreads) {
   const Assets assets = small_assets();
-  const TemporaryFolder one("synth_one");
-  const TemporaryFolder two("synth_two");
+  const testing::TempFolder one;
+  const testing::TempFolder two;
   generate_dataset(assets, small_recipe(), one.path(), {.threads = 1});
   generate_dataset(assets, small_recipe(), two.path(), {.threads = 2});
   EXPECT_EQ(bytes_of(one.path()), bytes_of(two.path()));
@@ -33,11 +34,11 @@ TEST(Generate, TheBytesDoNotDependOnThreads) {
 
 TEST(Generate, GoesOnWhereItStopped) {
   const Assets assets = small_assets();
-  const TemporaryFolder whole("synth_whole");
+  const testing::TempFolder whole;
   generate_dataset(assets, small_recipe(), whole.path(), {.threads = 1});
   const auto wanted = bytes_of(whole.path());
 
-  const TemporaryFolder cut("synth_cut");
+  const testing::TempFolder cut;
   struct Stop {};
   EXPECT_THROW(generate_dataset(assets, small_recipe(), cut.path(), {.threads = 1},
                                 [](const RunState& state) {
@@ -53,7 +54,7 @@ TEST(Generate, GoesOnWhereItStopped) {
 
 TEST(Generate, AnotherRecipeIsRefusedAFolderThatIsTaken) {
   const Assets assets = small_assets();
-  const TemporaryFolder folder("synth_taken");
+  const testing::TempFolder folder;
   Recipe recipe = small_recipe();
   recipe.count = 2;
   recipe.views_per_person = 1;

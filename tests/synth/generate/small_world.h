@@ -5,9 +5,6 @@
 #include "faceprobe/synth/procedural_head.h"
 #include "faceprobe/synth/procedural_maps.h"
 
-#include <filesystem>
-#include <string>
-
 namespace faceprobe::synth {
 
 inline Assets small_assets() {
@@ -30,27 +27,5 @@ inline Recipe small_recipe() {
   recipe.environment_height = 16;
   return recipe;
 }
-
-// A folder of its own for each test, gone afterwards.
-class TemporaryFolder {
- public:
-  explicit TemporaryFolder(const std::string& name)
-      : path_(std::filesystem::temp_directory_path() /
-              ("faceprobe_" + name + "_" + std::to_string(std::hash<std::string>{}(name)))) {
-    std::filesystem::remove_all(path_);
-    std::filesystem::create_directories(path_);
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 }  // namespace faceprobe::synth

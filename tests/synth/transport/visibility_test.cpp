@@ -21,7 +21,7 @@ TEST(CoarseCells, HoldEveryCellOnceAndTouchTheirNeighbours) {
     }
     for (const int times : found) EXPECT_EQ(times, 1);
     for (std::size_t c = 0; c < coarse.around.size(); ++c) {
-      EXPECT_GE(coarse.around[c].size(), 6U);
+      EXPECT_GE(coarse.around[c].size(), 7U);  // eight, but for the few where three cells meet
       for (const int other : coarse.around[c]) {
         const float cosine = coarse.cells.centre.row(static_cast<Eigen::Index>(c)).dot(coarse.cells.centre.row(other));
         EXPECT_LT(std::acos(cosine),
@@ -84,8 +84,8 @@ Difference compare() {
   return out;
 }
 
-// 0.15 % of the sky were measured, 2.7 % at the vertex that is worst, where the thin bar passes between the first rays. Three times that
-// would begin to show in the comparison with a path tracer.
+// 0.15 % of the sky were measured, 2.7 % at the vertex that is worst, where the thin bar passes between the first rays. Two to three times
+// that would begin to show in the comparison with a path tracer.
 TEST(Visibility, ACoarseFirstLookMissesLittle) {
   const Difference difference = compare();
   EXPECT_GT(difference.mean_open, 0.5);
