@@ -57,7 +57,8 @@ FaceEstimate Estimator::Impl::analyse(const io::Photo& photo, const face::Camera
   watch.lap("geometry");
 
   const ByteImage skin = skin_regions(out.geometry.region);
-  out.layers = highlights.separate(out.picture, out.clipped, skin);
+  const bool enough = shows_enough(crop, photo.linear.width(), photo.linear.height());
+  out.layers = highlights.separate(out.picture, out.clipped, skin, enough);
   watch.lap("highlights");
 
   const lighting::AlbedoModel albedo = lighting::fit_albedo(out.layers.diffuse, skin, out.clipped, photo.grey);
@@ -100,6 +101,11 @@ Estimate Estimator::estimate(const io::Photo& photo) const {
   if (found.empty()) throw no_face(photo, impl_->options);
   for (face::Face& face : found) {
     FaceEstimate estimate = impl_->analyse(photo, out.camera, std::move(face), watch);
+    if (!impl_->options.classical && !shows_enough(estimate.geometry.crop, photo.linear.width(), photo.linear.height())) {
+      out.warnings.emplace_back(
+          "The photo cuts off more than a third of a face; its highlights come from a classical separator, because the "
+          "network needs more of a head.");
+    }
     if (estimate.observations.count() < 30) {
       out.warnings.push_back("A face " + std::to_string(static_cast<int>(estimate.face.box.width)) +
                              " px wide shows too little skin to read light from and was left out.");

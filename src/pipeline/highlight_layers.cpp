@@ -10,6 +10,17 @@
 
 namespace faceprobe::pipeline {
 
+bool shows_enough(const face::Crop& crop, int photo_width, int photo_height) {
+  // The network learnt from whole heads; of the middle of a face alone, as in pictures that are cropped inside the hairline, it makes
+  // shading a highlight.
+  constexpr double kLeastShown = 2.0 / 3.0;
+  const double width = crop.width / crop.scale;
+  const double height = crop.height / crop.scale;
+  const double shown_width = std::min(crop.x_px + width, static_cast<double>(photo_width)) - std::max(crop.x_px, 0.0);
+  const double shown_height = std::min(crop.y_px + height, static_cast<double>(photo_height)) - std::max(crop.y_px, 0.0);
+  return std::max(0.0, shown_width) * std::max(0.0, shown_height) >= kLeastShown * width * height;
+}
+
 struct HighlightSeparator::Network {
   net::HighlightNet net;
   int threads;
@@ -46,9 +57,10 @@ HighlightSeparator::HighlightSeparator(const EstimateOptions& options)
 
 HighlightSeparator::~HighlightSeparator() = default;
 
-highlight::Layers HighlightSeparator::separate(const Image& picture, const ByteImage& flags,
-                                               const ByteImage& skin) const {
-  return network_ ? network_->separate(picture, flags, skin) : highlight::separate(picture, skin, classical_);
+highlight::Layers HighlightSeparator::separate(const Image& picture, const ByteImage& flags, const ByteImage& skin,
+                                               bool enough) const {
+  if (network_ && enough) return network_->separate(picture, flags, skin);
+  return highlight::separate(picture, skin, classical_);
 }
 
 }  // namespace faceprobe::pipeline

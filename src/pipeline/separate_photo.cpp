@@ -10,8 +10,7 @@ namespace faceprobe::pipeline {
 namespace {
 
 // The face's crop at the photo's own resolution, on whole pixels, so that layers go back without resampling.
-face::Crop full_crop(const face::Face& face, int width, int height) {
-  const face::Crop wide = face::face_crop(face, width, height, {});
+face::Crop full_crop(const face::Crop& wide, int width, int height) {
   const int left = std::max(0, static_cast<int>(std::floor(wide.x_px)));
   const int top = std::max(0, static_cast<int>(std::floor(wide.y_px)));
   const int right = std::min(width, static_cast<int>(std::ceil(wide.x_px + wide.width / wide.scale)));
@@ -47,13 +46,16 @@ highlight::Layers Estimator::separate(const io::Photo& photo) const {
   whole.highlight = Image(photo.linear.width(), photo.linear.height(), 3);
   whole.diffuse = photo.linear;
   for (const face::Face& face : faces) {
-    const face::Crop crop = full_crop(face, photo.linear.width(), photo.linear.height());
+    const face::Crop wide = face::face_crop(face, photo.linear.width(), photo.linear.height(), {});
+    const face::Crop crop = full_crop(wide, photo.linear.width(), photo.linear.height());
     if (crop.width == 0 || crop.height == 0) continue;
     const int left = static_cast<int>(crop.x_px);
     const int top = static_cast<int>(crop.y_px);
     const Image picture = cut(photo.linear, left, top, crop);
     const ByteImage skin = skin_regions(face::rasterize_regions(face, camera, impl_->mesh, crop));
-    const highlight::Layers layers = impl_->highlights.separate(picture, cut(photo.clipped, left, top, crop), skin);
+    const highlight::Layers layers =
+        impl_->highlights.separate(picture, cut(photo.clipped, left, top, crop), skin,
+                                   shows_enough(wide, photo.linear.width(), photo.linear.height()));
     for (int y = 0; y < crop.height; ++y) {
       for (int x = 0; x < crop.width; ++x) {
         if (skin(x, y) == 0) continue;

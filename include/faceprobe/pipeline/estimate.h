@@ -36,7 +36,7 @@ namespace faceprobe::pipeline {
 struct EstimateOptions {
   face::FinderOptions finder;
   // How highlights are taken off: by the trained network (net/highlight_net.h) where unset, else by a classical separator.
-  std::optional<highlight::Separator> classical = highlight::Separator::kYang;
+  std::optional<highlight::Separator> classical;
   std::filesystem::path highlight_weights;  // of the network; empty = those that come with the program (models/README.md)
   lighting::SolveOptions solve;
   lighting::MainLightOptions main_lights;
