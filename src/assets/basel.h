@@ -7,7 +7,7 @@
 
 namespace faceprobe::assets {
 
-synth::HeadModel read_basel_2009(const std::filesystem::path& mat);
-synth::HeadModel read_basel_h5(const std::filesystem::path& h5);  // 2017, 2019
+synth::HeadModel read_basel_2009(const std::filesystem::path& path);
+synth::HeadModel read_basel_h5(const std::filesystem::path& path);  // 2017, 2019
 
 }  // namespace faceprobe::assets

@@ -61,7 +61,7 @@ Eigen::MatrixX3i read_cells(const Hdf5File& file, Eigen::Index vertices) {
   }
   const bool by_corner = cells.shape[0] == 3;
   const Eigen::MatrixXi rows = integer_rows(cells, static_cast<Eigen::Index>(cells.shape[1]), what);
-  const Eigen::MatrixX3i triangles = by_corner ? Eigen::MatrixX3i(rows.transpose()) : Eigen::MatrixX3i(rows);
+  Eigen::MatrixX3i triangles = by_corner ? Eigen::MatrixX3i(rows.transpose()) : Eigen::MatrixX3i(rows);
   if (triangles.minCoeff() < 0 || triangles.maxCoeff() >= vertices) {
     refuse_input(what + " names vertices outside 0 .. " + std::to_string(vertices - 1) + ".");
   }

@@ -77,6 +77,7 @@ synth::HeadModel take_parts(const IctSource& ict, const std::string& file) {
 
 std::vector<Eigen::MatrixX3f> take_modes(const std::vector<Eigen::MatrixX3f>& modes, Eigen::Index kept) {
   std::vector<Eigen::MatrixX3f> result;
+  result.reserve(modes.size());
   for (const Eigen::MatrixX3f& mode : modes)
     result.emplace_back(mode.topRows(std::min(kept, mode.rows())) * kMetresPerCentimetre);
   return result;

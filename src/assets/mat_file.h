@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-struct _mat_t;
+struct _mat_t;  // NOLINT(bugprone-reserved-identifier): matio's
 
 namespace faceprobe::assets {
 

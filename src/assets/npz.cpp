@@ -56,7 +56,8 @@ Arrays read_npz(const std::filesystem::path& path) {
     std::string name = status.name;
     if (!name.ends_with(".npy")) continue;
     name.resize(name.size() - 4);
-    const std::string what = file + ": '" + name + "'";
+    std::string what = file;
+    what.append(": '").append(name).append("'");
     if (status.size > kMaxEntryBytes) refuse_input(what + " is larger than 1 GiB.");
     arrays.emplace(name, parse_npy(read_entry(archive.get(), static_cast<zip_uint64_t>(i), status.size, what), what));
   }

@@ -23,9 +23,9 @@ std::filesystem::path find_texture(const std::filesystem::path& path, const ObjF
   if (!obj.texture.empty()) {
     std::string name = obj.texture.string();
     for (char& c : name) c = c == '\\' ? '/' : c;  // written on Windows
-    const std::filesystem::path named = path.parent_path() / name;
+    std::filesystem::path named = path.parent_path() / name;
     if (std::filesystem::exists(named)) return named;
-    const std::filesystem::path beside = path.parent_path() / std::filesystem::path(name).filename();
+    std::filesystem::path beside = path.parent_path() / std::filesystem::path(name).filename();
     if (std::filesystem::exists(beside)) return beside;
     refuse_input(quoted(path) + " names the texture " + quoted(named) + ", which is not there; put it beside the file.");
   }

@@ -4,7 +4,6 @@
 
 #include <stdexcept>
 #include <unordered_map>
-#include <utility>
 #include <vector>
 
 #if DNNL_CPU_THREADING_RUNTIME != DNNL_RUNTIME_OMP
@@ -17,8 +16,8 @@ namespace {
 using dnnl::memory;
 using Forward = dnnl::convolution_forward;
 
-memory::desc described(memory::dims dims, memory::format_tag tag) {
-  return memory::desc(std::move(dims), memory::data_type::f32, tag);
+memory::desc described(const memory::dims& dims, memory::format_tag tag) {
+  return memory::desc(dims, memory::data_type::f32, tag);
 }
 
 // oneDNN takes no pointer to const, but reads what it is given as source or weights.

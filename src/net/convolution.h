@@ -23,6 +23,8 @@ class Convolution {
  public:
   // `name`.weight (out x in x kernel x kernel) and `name`.bias (out). Throws Error(kModel): missing, or of another shape.
   Convolution(WeightList& weights, const std::string& name, const ConvolutionShape& shape);
+  Convolution(const Convolution&) = delete;
+  Convolution& operator=(const Convolution&) = delete;
   Convolution(Convolution&&) noexcept;
   Convolution& operator=(Convolution&&) noexcept;
   ~Convolution();

@@ -272,6 +272,7 @@ std::vector<synth::SurfacePoint> locate_dense_landmarks(const synth::HeadModel& 
                                       "; give a skin texture in its UVs, or check that it is in metres and faces +z.");
   }
   std::vector<synth::SurfacePoint> out;
+  out.reserve(face::kMeshVertices);
   for (int i = 0; i < face::kMeshVertices; ++i) {
     out.push_back(nearest_skin(model, skin, sum.row(i).transpose() / static_cast<float>(views)));
   }

@@ -52,7 +52,7 @@ HighlightSeparator::HighlightSeparator(const EstimateOptions& options)
   const std::filesystem::path weights =
       options.highlight_weights.empty() ? io::data_file("highlight.safetensors") : options.highlight_weights;
   const net::HighlightNetOptions net_options{.threads = options.threads};
-  network_.reset(new Network{net::HighlightNet(weights, net_options), options.threads});
+  network_ = std::make_unique<Network>(Network{net::HighlightNet(weights, net_options), options.threads});
 }
 
 HighlightSeparator::~HighlightSeparator() = default;

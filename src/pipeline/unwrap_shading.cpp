@@ -52,6 +52,7 @@ double remove_slow_shading(const Image& normal, const Image& weight, Image& colo
   if (texels.size() < 50) return 0.0;
 
   std::vector<double> logs;
+  logs.reserve(texels.size());
   for (const Texel& texel : texels) logs.push_back(texel.log_light);
   Basis fit = Basis::Zero();
   fit[0] = median(logs) / texels.front().basis[0];

@@ -34,6 +34,6 @@ synth::HeadModel load_obj_head(const std::filesystem::path& path, const ObjHeadO
 
 // What is there, by name: a file of the above, an ICT-FaceKit folder, a folder of files, or else the folders directly in it. Error(kInput)
 // when nothing is found.
-std::vector<synth::HeadModel> load_heads(const std::filesystem::path& folder_or_file);
+std::vector<synth::HeadModel> load_heads(const std::filesystem::path& path);
 
 }  // namespace faceprobe::assets

@@ -25,6 +25,8 @@ class HighlightNet {
  public:
   // Throws Error(kModel): the file is not there, damaged, or of another network; Error(kUsage): the options do not validate.
   explicit HighlightNet(const std::filesystem::path& weights, const HighlightNetOptions& options = {});
+  HighlightNet(const HighlightNet&) = delete;
+  HighlightNet& operator=(const HighlightNet&) = delete;
   HighlightNet(HighlightNet&&) noexcept;
   HighlightNet& operator=(HighlightNet&&) noexcept;
   ~HighlightNet();

@@ -29,6 +29,8 @@ class TorchHighlightNet {
   // Throws Error(kModel): the file is not there, damaged, or of another network; Error(kDevice): the device is not there;
   // Error(kUsage): the options do not validate.
   explicit TorchHighlightNet(const std::filesystem::path& weights, const TorchHighlightNetOptions& options = {});
+  TorchHighlightNet(const TorchHighlightNet&) = delete;
+  TorchHighlightNet& operator=(const TorchHighlightNet&) = delete;
   TorchHighlightNet(TorchHighlightNet&&) noexcept;
   TorchHighlightNet& operator=(TorchHighlightNet&&) noexcept;
   ~TorchHighlightNet();

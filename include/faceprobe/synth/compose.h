@@ -27,7 +27,7 @@ void add_person_surface(const Assets& assets, const Person& person, const SkinSe
 // Shape of the lobes: roughness and pores of the first skin, the materials' own elsewhere.
 FragmentSurface plain_lobes(const Fragments& fragments);
 void add_person_lobes(const Person& person, const Fragments& fragments, const PinholeCamera& camera,
-                      FragmentSurface& lobes);
+                      FragmentSurface& surface);
 
 // Geometry layers of a view of these people.
 ViewLayers view_layers(std::span<const Person> people, const View& view, const Fragments& fragments);

@@ -56,14 +56,14 @@ class ShardReader {
   const std::string& recipe() const { return recipe_; }
   // The mapped file that holds a sample, and the sample's number in it; for readers that want spans instead of copies.
   std::pair<const io::MappedTensors*, int> place(int sample) const;
-  Sample copy_sample(int sample) const;
-  ViewLayers copy_view(int sample) const;  // of the view that the sample shows
+  Sample copy_sample(int number) const;
+  ViewLayers copy_view(int number) const;  // of the view that the sample shows
   // The same with the photo, its clipped pixels and its two layers of light alone, or with regions and faces alone: a third of the bytes.
-  Sample copy_light(int sample) const;
-  ViewLayers copy_faces(int sample) const;
+  Sample copy_light(int number) const;
+  ViewLayers copy_faces(int number) const;
 
  private:
-  int view_of(int sample) const;
+  int view_of(int number) const;
 
   std::vector<io::MappedTensors> shards_;
   std::vector<std::pair<int, int>> place_;  // of each sample: shard, number in it

@@ -99,6 +99,7 @@ std::vector<ViewSamples> generate_person(const Assets& assets, const Recipe& rec
 
   const TransportOptions transport_options{.nside = recipe.nside, .bounce_rays = recipe.bounce_rays, .threads = threads};
   std::vector<const Fragments*> all_seen;
+  all_seen.reserve(seen.size());
   for (const Fragments& fragments : seen) all_seen.push_back(&fragments);
   const SceneTransport transport = build_scene_transport(scene, vertices_seen(all_seen), transport_options);
   const SphereGrid grid(recipe.nside);

@@ -15,7 +15,7 @@ using Point = Eigen::Vector2f;
 
 // Where the 68 points lie in a frontal view, right half and middle; the left half is mirrored.
 std::vector<Point> landmark_places() {
-  using namespace mannequin;
+  using namespace mannequin;  // NOLINT(google-build-using-namespace): a dozen constants of this one shape
   std::vector<Point> jaw = {{-0.074F, 0.000F},  {-0.0735F, -0.020F}, {-0.072F, -0.040F},
                             {-0.067F, -0.060F}, {-0.058F, -0.080F},  {-0.046F, -0.097F},
                             {-0.031F, -0.108F}, {-0.015F, -0.115F},  {0, -0.118F}};

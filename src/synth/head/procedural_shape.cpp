@@ -110,7 +110,7 @@ Vector plain_point(const MannequinLook& look, float y, float azimuth) {
 }
 
 float nose_height(const MannequinLook& look, float x, float y) {
-  using namespace mannequin;
+  using namespace mannequin;  // NOLINT(google-build-using-namespace): a dozen constants of this one shape
   const float length = 1 + 0.12F * look.nose_length;
   const float wide = 1 + 0.12F * look.nose_width;
   const float along = (0.012F - y) / (0.012F - kNoseTipY);  // 0 at the bridge, 1 at the tip

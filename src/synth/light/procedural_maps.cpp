@@ -69,6 +69,7 @@ std::vector<std::pair<std::string, EnvMap>> procedural_maps() {
        {{-45, 30, 14, {9, 9, 9}}, {60, 10, 20, {1.2F, 1.2F, 1.2F}}, {170, 35, 8, {6, 6, 7}}}},
   };
   std::vector<std::pair<std::string, EnvMap>> maps;
+  maps.reserve(places.size());
   for (const Surroundings& place : places) maps.emplace_back(place.name, paint(place));
   return maps;
 }

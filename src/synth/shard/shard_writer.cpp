@@ -189,7 +189,8 @@ std::string difference(const std::string& there, const std::string& here) {
     if (old.contains(key) && old[key] == value) continue;
     const std::string before = old.contains(key) ? old[key].dump() : "not given";
     if (before.size() > kLongest || value.dump().size() > kLongest) return key + " differ";
-    return key + " is " + before + " there and " + value.dump() + " here";
+    std::string text = key;
+    return text.append(" is ").append(before).append(" there and ").append(value.dump()).append(" here");
   }
   return "its recipe says more than this one";
 }

@@ -13,7 +13,7 @@ namespace {
 
 enum Purpose : std::uint64_t { kStyle = 11, kRoots, kGuides, kChildren };
 
-constexpr int kGuides_ = 300;
+constexpr int kGuideCount = 300;
 constexpr int kNear = 3;  // guides that a strand follows
 
 struct Follow {
@@ -73,9 +73,9 @@ Ways draw_ways(const HairStyle& style, Random& random) {
   return ways;
 }
 
-class Head_of_hair {
+class HeadOfHair {
  public:
-  Head_of_hair(const HairStyle& style, const Anatomy& anatomy, const SkinField& field, const std::vector<Guide>& guides)
+  HeadOfHair(const HairStyle& style, const Anatomy& anatomy, const SkinField& field, const std::vector<Guide>& guides)
       : style_(style), anatomy_(anatomy), field_(field), guides_(guides) {}
 
   // Points of a strand without its clump.
@@ -197,13 +197,13 @@ void add_hair(const WardrobeSettings& settings, const Anatomy& anatomy, const Sk
   Random roots_random = root_random.split(kRoots);
   std::vector<Guide> guides;
   Random guide_random = root_random.split(kGuides);
-  for (const Scalp::Root& root : scalp.roots(kGuides_, 0.002F * s, roots_random)) {
+  for (const Scalp::Root& root : scalp.roots(kGuideCount, 0.002F * s, roots_random)) {
     guides.push_back(grow(style, anatomy, field, root, guide_random));
   }
   if (guides.empty()) return;
 
   Random random = root_random.split(kChildren);
-  const Head_of_hair hair(style, anatomy, field, guides);
+  const HeadOfHair hair(style, anatomy, field, guides);
   const int count = std::max(1, static_cast<int>(static_cast<float>(settings.strands) * style.strand_share));
   const std::vector<Scalp::Root> roots = scalp.roots(count, style.feather_m * s, roots_random);
 

@@ -122,8 +122,8 @@ void beanie(const Anatomy& a, const HatShell& shell, Random& random, MeshBuilder
       if (r < 2) room = (r == 0 ? 0.001F : 0.005F) * s;
       room += 0.0015F * s * noise(cloth.seed + 9, shell.direction(azimuth, elevation) * 6.0F);
       if (i % 2 == 0) room -= 0.0007F * s;  // ribs
-      points.push_back(shell.centre() +
-                       shell.direction(azimuth, elevation) * (shell.skin_radius(azimuth, elevation) + room));
+      points.emplace_back(shell.centre() +
+                          shell.direction(azimuth, elevation) * (shell.skin_radius(azimuth, elevation) + room));
     }
   }
   mesh.grid(points, kAround, true);

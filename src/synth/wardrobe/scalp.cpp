@@ -146,7 +146,7 @@ SurfaceMesh Scalp::cap(float margin_m, float offset_m) const {
       const Eigen::Vector3f blended = ((1.0F - t) * skin.normals.row(a) + t * skin.normals.row(b)).transpose();
       const Eigen::Vector3f n =
           blended.norm() > 1e-3F ? Eigen::Vector3f(blended.normalized()) : Eigen::Vector3f(0, 1, 0);
-      points.push_back(((1.0F - t) * skin.vertices.row(a) + t * skin.vertices.row(b)).transpose() + offset_m * n);
+      points.emplace_back(((1.0F - t) * skin.vertices.row(a) + t * skin.vertices.row(b)).transpose() + offset_m * n);
       normals.push_back(n);
     }
     return it->second;

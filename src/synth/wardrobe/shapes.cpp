@@ -50,7 +50,7 @@ void MeshBuilder::tube(std::span<const Eigen::Vector3f> path, std::span<const fl
     const Eigen::Vector3f other = axis.cross(side);
     for (int k = 0; k < sides; ++k) {
       const float angle = kTurn * static_cast<float>(k) / static_cast<float>(sides);
-      points.push_back(centre + radius * (std::cos(angle) * side + std::sin(angle) * other));
+      points.emplace_back(centre + radius * (std::cos(angle) * side + std::sin(angle) * other));
     }
   };
   for (int i = 0; i < n; ++i) {
@@ -87,8 +87,8 @@ void MeshBuilder::ellipsoid(const Eigen::Vector3f& centre, const Eigen::Matrix3f
         std::clamp(kTurn / 2 * static_cast<float>(r) / static_cast<float>(rings), 0.02F, kTurn / 2 - 0.02F);
     for (int k = 0; k < sides; ++k) {
       const float angle = kTurn * static_cast<float>(k) / static_cast<float>(sides);
-      points.push_back(centre + axes * Eigen::Vector3f(std::sin(polar) * std::sin(angle), -std::cos(polar),
-                                                       std::sin(polar) * std::cos(angle)));
+      points.emplace_back(centre + axes * Eigen::Vector3f(std::sin(polar) * std::sin(angle), -std::cos(polar),
+                                                          std::sin(polar) * std::cos(angle)));
     }
   }
   grid(points, sides, true);
@@ -104,9 +104,9 @@ void MeshBuilder::rounded_box(const Eigen::Vector3f& centre, const Eigen::Matrix
     const float ring = std::pow(std::sin(polar), exponent);
     for (int k = 0; k < sides; ++k) {
       const float angle = kTurn * static_cast<float>(k) / static_cast<float>(sides);
-      points.push_back(centre + axes * Eigen::Vector3f(ring * signed_power(std::sin(angle), exponent),
-                                                       -signed_power(std::cos(polar), exponent),
-                                                       ring * signed_power(std::cos(angle), exponent)));
+      points.emplace_back(centre + axes * Eigen::Vector3f(ring * signed_power(std::sin(angle), exponent),
+                                                          -signed_power(std::cos(polar), exponent),
+                                                          ring * signed_power(std::cos(angle), exponent)));
     }
   }
   grid(points, sides, true);
@@ -122,9 +122,9 @@ void MeshBuilder::disc(std::span<const Eigen::Vector3f> outline, const Eigen::Ve
   const auto n = static_cast<int>(outline.size());
   for (const float share : kShares) {
     for (const Eigen::Vector3f& p : outline)
-      points_.push_back(middle + share * (p - middle) + (1.0F - share * share) * bulge);
+      points_.emplace_back(middle + share * (p - middle) + (1.0F - share * share) * bulge);
   }
-  points_.push_back(middle + bulge);
+  points_.emplace_back(middle + bulge);
   for (int k = 0; k < n; ++k) {
     const int next = (k + 1) % n;
     for (int ring = 0; ring < 2; ++ring) {
@@ -179,8 +179,8 @@ std::vector<Eigen::Vector3f> smooth_path(std::span<const Eigen::Vector3f> knots,
       const Eigen::Vector3f b = at(i);
       const Eigen::Vector3f c = at(i + 1);
       const Eigen::Vector3f d = at(i + 2);
-      path.push_back(0.5F * (2.0F * b + t * (c - a) + t * t * (2.0F * a - 5.0F * b + 4.0F * c - d) +
-                             t * t * t * (3.0F * (b - c) + d - a)));
+      path.emplace_back(0.5F * (2.0F * b + t * (c - a) + t * t * (2.0F * a - 5.0F * b + 4.0F * c - d) +
+                                t * t * t * (3.0F * (b - c) + d - a)));
     }
   }
   if (!ring) path.push_back(knots.back());
