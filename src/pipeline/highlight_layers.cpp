@@ -21,6 +21,33 @@ bool shows_enough(const face::Crop& crop, int photo_width, int photo_height) {
   return std::max(0.0, shown_width) * std::max(0.0, shown_height) >= kLeastShown * width * height;
 }
 
+namespace {
+
+// A clipped channel keeps what is diffuse, as the network has learnt, so that the highlight lacks that colour: cyan where red is clipped.
+// The light had no such hole; it is taken to have been as bright there as in the channels that were not clipped.
+void fill_clipped(const ByteImage& flags, const Image& picture, Image& highlight) {
+  for (int y = 0; y < highlight.height(); ++y) {
+    for (int x = 0; x < highlight.width(); ++x) {
+      const unsigned clipped = flags(x, y) & 7U;
+      if (clipped == 0 || clipped == 7U) continue;
+      float* out = highlight.pixel(x, y);
+      float sum = 0;
+      int count = 0;
+      for (unsigned c = 0; c < 3; ++c) {
+        if ((clipped >> c & 1U) != 0) continue;
+        sum += out[c];
+        ++count;
+      }
+      const float others = sum / static_cast<float>(count);
+      for (unsigned c = 0; c < 3; ++c) {
+        if ((clipped >> c & 1U) != 0) out[c] = std::max(out[c], std::min(others, picture(x, y, static_cast<int>(c))));
+      }
+    }
+  }
+}
+
+}  // namespace
+
 struct HighlightSeparator::Network {
   net::HighlightNet net;
   int threads;
@@ -37,7 +64,9 @@ struct HighlightSeparator::Network {
     ByteImage where(skin.width(), skin.height(), 1);
     std::transform(skin.values().begin(), skin.values().end(), where.values().begin(),
                    [](std::uint8_t value) { return value != 0 ? std::uint8_t{1} : std::uint8_t{0}; });
-    const Image found = net.highlight(small, face::crop_flags(flags, copy), face::crop_flags(where, copy));
+    const ByteImage small_flags = face::crop_flags(flags, copy);
+    Image found = net.highlight(small, small_flags, face::crop_flags(where, copy));
+    fill_clipped(small_flags, small, found);  // here, where no pixel stands apart from its neighbours
     highlight::Layers layers;
     layers.highlight = highlight::upsample_highlight(found, small, picture, where, {.threads = threads});
     layers.diffuse = picture;

@@ -146,6 +146,21 @@ TEST(Estimate, TwoFacesAreOrderedAndGetAJointLight) {
   EXPECT_NEAR(estimate.joint->environment.integral()[1] / std::exp(log_energy), 1, 0.2);
 }
 
+// The portrait's red is clipped on nose and cheeks. What lies over it is no cyan light.
+TEST(Estimate, AClippedChannelIsNoHoleInTheHighlight) {
+  const FaceEstimate& face = portrait_estimate().faces[0];
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  int count = 0;
+  for (std::size_t i = 0; i < face.clipped.pixel_count(); ++i) {
+    const float* highlight = face.layers.highlight.data() + 3 * i;
+    if ((face.clipped.data()[i] & 7U) != 1U || highlight[1] <= 0) continue;
+    sum += Eigen::Map<const Eigen::Vector3f>(highlight).cast<double>();
+    ++count;
+  }
+  ASSERT_GT(count, 100);
+  EXPECT_GT(sum[0], 0.6 * 0.5 * (sum[1] + sum[2]));
+}
+
 TEST(Estimate, HalfTheLightGivesHalfTheMap) {
   EstimateOptions shading_only;
   shading_only.solve.highlight_weight = 0;
