@@ -158,6 +158,7 @@ TEST(Estimate, AClippedChannelIsNoHoleInTheHighlight) {
     ++count;
   }
   ASSERT_GT(count, 100);
+  // The mean of the others is what is filled in, less what the guided upsampling and pixels just below white take away.
   EXPECT_GT(sum[0], 0.6 * 0.5 * (sum[1] + sum[2]));
 }
 
