@@ -1,6 +1,7 @@
 #include "net/head.h"
 
 #include "faceprobe/core/color.h"
+#include "faceprobe/core/error.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,6 +19,16 @@ float smooth_min(float b, float light) {
 }
 
 }  // namespace
+
+UNetOptions separator_options(const std::string& json) {
+  UNetOptions options = unet_options_from_json(json);
+  if (options.in_channels != kInputChannels || options.out_channels != kRawChannels) {
+    throw Error(ExitCode::kModel, "The weights are of a network with " + std::to_string(options.in_channels) +
+                                      " channels in and " + std::to_string(options.out_channels) +
+                                      " out; separating highlights takes 7 and 4. Use weights made for it.");
+  }
+  return options;
+}
 
 Image network_input(const PaddedPicture& picture) {
   Image input(picture.linear.width(), picture.linear.height(), kInputChannels);

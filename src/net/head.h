@@ -7,6 +7,9 @@
 
 #include "faceprobe/core/image.h"
 #include "net/padded_picture.h"
+#include "net/unet_options.h"
+
+#include <string>
 
 namespace faceprobe::net {
 
@@ -22,6 +25,9 @@ struct Head {
   static constexpr double kLargestRaw = 100;    // far beyond use; products of larger ones would overflow
   static constexpr double kTiny = 1e-30;        // 0 / 0 becomes 0
 };
+
+// Options of a network that takes the channels above and gives those. Throws Error(kModel).
+UNetOptions separator_options(const std::string& json);
 
 // H x W x 7.
 Image network_input(const PaddedPicture& picture);

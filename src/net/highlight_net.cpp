@@ -37,14 +37,8 @@ UNetRunner make_runner(const ModelInfo& info, const io::TensorFile& file) {
     throw Error(ExitCode::kModel, "The weights are of a network " + io::quoted(info.architecture) +
                                       "; highlights are taken off by unet. Use weights made for it.");
   }
-  const UNetOptions options = unet_options_from_json(info.options_json);
-  if (options.in_channels != kInputChannels || options.out_channels != kRawChannels) {
-    throw Error(ExitCode::kModel, "The weights are of a network with " + std::to_string(options.in_channels) +
-                                      " channels in and " + std::to_string(options.out_channels) +
-                                      " out; separating highlights takes 7 and 4. Use weights made for it.");
-  }
   WeightList weights(file);
-  UNetRunner runner(options, weights);
+  UNetRunner runner(separator_options(info.options_json), weights);
   weights.finish();
   return runner;
 }

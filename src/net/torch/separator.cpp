@@ -17,13 +17,7 @@ void prepare(torch::nn::Module& module, const io::TensorFile& file, const torch:
 }
 
 Separator unet_separator(const ModelInfo& info, const io::TensorFile& file, const torch::Device& device) {
-  const UNetOptions options = unet_options_from_json(info.options_json);
-  if (options.in_channels != kInputChannels || options.out_channels != kRawChannels) {
-    throw Error(ExitCode::kModel, "The weights are of a network with " + std::to_string(options.in_channels) +
-                                      " channels in and " + std::to_string(options.out_channels) +
-                                      " out; separating highlights takes 7 and 4. Use weights made for it.");
-  }
-  UNet net(options);
+  UNet net(separator_options(info.options_json));
   prepare(*net, file, device);
   return {net->multiple(), [net](const auto& linear, const auto& clip, const auto& mask) mutable {
             return highlight_from_raw(net(prepare_input(linear, clip, mask)), linear);

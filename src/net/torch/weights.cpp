@@ -3,6 +3,7 @@
 #include "faceprobe/core/error.h"
 #include "faceprobe/io/tensor_file.h"
 #include "io/safetensors_header.h"
+#include "net/weight_list.h"
 
 #include <algorithm>
 #include <span>
@@ -53,21 +54,15 @@ void save_weights(const torch::nn::Module& module, const std::filesystem::path& 
 
 void load_weights(torch::nn::Module& module, const io::TensorFile& file) {
   const auto state = state_of(module);
-  // All is checked before anything is changed. tensor() throws for one that is missing or of another shape.
-  std::map<std::string, const io::Tensor*> wanted;
-  for (const auto& [name, tensor] : state) wanted[name] = &file.tensor(name, tensor.sizes().vec());
-  for (const auto& [name, tensor] : file.tensors) {
-    if (wanted.contains(name)) continue;
-    throw Error(ExitCode::kModel, "The weights hold tensor " + io::quoted(name) + " of shape " +
-                                      io::shape_text(tensor.shape) + ", one of " + std::to_string(file.tensors.size()) +
-                                      ", where the network has " + std::to_string(state.size()) +
-                                      " tensors and none of that name. They belong to another network or version.");
-  }
+  // All is checked before anything is changed.
+  WeightList weights(file);
+  std::vector<std::vector<float>> values;
+  for (const auto& [name, tensor] : state) values.push_back(weights.take(name, tensor.sizes().vec()));
+  weights.finish();
   const torch::NoGradGuard no_grad;
-  for (const auto& [name, tensor] : state) {
-    const io::Tensor& from = *wanted.at(name);
-    // from_blob takes no pointer to const, but copy_ only reads.
-    torch::Tensor(tensor).copy_(torch::from_blob(const_cast<float*>(from.values.data()), from.shape, torch::kFloat32));
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    const torch::Tensor& to = state[i].second;
+    torch::Tensor(to).copy_(torch::from_blob(values[i].data(), to.sizes(), torch::kFloat32));
   }
 }
 
