@@ -2,6 +2,7 @@
 
 #include "faceprobe/core/color.h"
 #include "faceprobe/synth/photo_layers.h"
+#include "train/augment_view.h"
 
 #include <algorithm>
 #include <cmath>
@@ -59,6 +60,17 @@ void put_before(TrainingPicture& picture, Random& random) {
   }
 }
 
+// What is missing at the left, top, right and bottom, of the whole: each side is cut in half of the pictures.
+std::array<double, 4> draw_cuts(Random& random) {
+  std::array<double, 4> cuts{};
+  for (double& cut : cuts) {
+    const bool there = random.chance(0.5);
+    const double share = random.between(0.02, 0.3);
+    cut = there ? share : 0;
+  }
+  return cuts;
+}
+
 TrainingPicture picture_of(const synth::ShardReader& reader, int number, float mask_scale) {
   const synth::Sample sample = reader.copy_light(number);
   const synth::ViewLayers view = reader.copy_faces(number);
@@ -105,12 +117,29 @@ TrainingPicture draw_picture(const synth::ShardReader& reader, int sample, const
   const bool grey = random.chance(augment.grey_share);
   const bool masked = !random.chance(augment.no_mask_share);
   const bool occluded = random.chance(augment.occluder_share);
+  const bool another_zoom = random.chance(augment.zoom_share);
+  // From a head with room around it to a face cut off at the brows.
+  const double zoom = random.log_between(0.8, 1.6);
+  const double centre_x = random.between(0.35, 0.65);
+  const double centre_y = random.between(0.35, 0.65);
+  const bool cut = random.chance(augment.cut_share);
+  const std::array<double, 4> cuts = draw_cuts(random);
 
   TrainingPicture picture = picture_of(reader, sample, scale);
+  const double width = picture.linear.width();
+  const double height = picture.linear.height();
+  if (another_zoom) picture = zoomed(picture, zoom, centre_x * width, centre_y * height);
   if (config.architecture != "mscr") apply_gain(gain, picture);
   if (occluded) put_before(picture, random);
   if (grey) take_colour(picture);
   if (!masked) std::fill(picture.mask.values().begin(), picture.mask.values().end(), std::uint8_t{1});
+  if (cut) {
+    cut_sides({.left = static_cast<int>(cuts[0] * width),
+               .top = static_cast<int>(cuts[1] * height),
+               .right = static_cast<int>(std::ceil((1 - cuts[2]) * width)),
+               .bottom = static_cast<int>(std::ceil((1 - cuts[3]) * height))},
+              picture);
+  }
   if (augment.mirror && turned) {
     mirror(picture.linear);
     mirror(picture.clip);

@@ -31,8 +31,12 @@ void each_field(Config& config, const Visit& visit) {
   visit("grey_share", config.augment.grey_share);
   visit("no_mask_share", config.augment.no_mask_share);
   visit("occluder_share", config.augment.occluder_share);
+  visit("zoom_share", config.augment.zoom_share);
+  visit("cut_share", config.augment.cut_share);
   visit("loss_encoded", config.loss.encoded);
   visit("loss_gradient", config.loss.gradient);
+  visit("loss_rms", config.loss.rms);
+  visit("loss_similarity", config.loss.similarity);
   visit("loss_elsewhere", config.loss.elsewhere);
 }
 
@@ -74,8 +78,12 @@ std::string TrainConfig::validate() const {
       {"grey_share", augment.grey_share, 0, 1, "0 to 1"},
       {"no_mask_share", augment.no_mask_share, 0, 1, "0 to 1"},
       {"occluder_share", augment.occluder_share, 0, 1, "0 to 1"},
+      {"zoom_share", augment.zoom_share, 0, 1, "0 to 1"},
+      {"cut_share", augment.cut_share, 0, 1, "0 to 1"},
       {"loss_encoded", loss.encoded, 0, 100, "0 to 100"},
       {"loss_gradient", loss.gradient, 0, 100, "0 to 100"},
+      {"loss_rms", loss.rms, 0, 100, "0 to 100"},
+      {"loss_similarity", loss.similarity, 0, 100, "0 to 100"},
       {"loss_elsewhere", loss.elsewhere, 0, 1, "0 to 1"},
   };
   for (const Limit& limit : limits) {

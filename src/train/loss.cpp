@@ -13,6 +13,38 @@ torch::Tensor weighted_mean(const torch::Tensor& error, const torch::Tensor& wei
   return (error * weight).sum() / (weight.sum() * static_cast<double>(error.size(1)) + 1e-6);
 }
 
+// Root mean square of each picture's error where the weight is, then the mean over pictures.
+torch::Tensor picture_rms(const torch::Tensor& error, const torch::Tensor& weight) {
+  const torch::Tensor sum = (error.square() * weight).sum({1, 2, 3});
+  const torch::Tensor count = static_cast<double>(error.size(1)) * weight.sum({1, 2, 3});
+  return (sum / count.clamp_min(1) + kCorner * kCorner).sqrt().mean();
+}
+
+// Mean over a square window about each pixel.
+torch::Tensor window_mean(const torch::Tensor& planes) {
+  constexpr std::int64_t kWindow = 7;
+  using torch::nn::functional::avg_pool2d;
+  using Options = torch::nn::functional::AvgPool2dFuncOptions;
+  const torch::Tensor rows = avg_pool2d(planes, Options({1, kWindow}).stride(1).padding({0, kWindow / 2}));
+  return avg_pool2d(rows, Options({kWindow, 1}).stride(1).padding({kWindow / 2, 0}));
+}
+
+// Structural similarity (eval/image_metrics.h) of the mean of the channels, with a square window in the Gaussian's place.
+torch::Tensor similarity(const torch::Tensor& estimate, const torch::Tensor& truth, const torch::Tensor& mask) {
+  constexpr double kC1 = 0.01 * 0.01;
+  constexpr double kC2 = 0.03 * 0.03;
+  const torch::Tensor x = estimate.mean(1, true) * mask;
+  const torch::Tensor y = truth.mean(1, true) * mask;
+  const torch::Tensor means = window_mean(torch::cat({x, y, x * x, y * y, x * y}, 1));
+  const torch::Tensor mx = means.narrow(1, 0, 1);
+  const torch::Tensor my = means.narrow(1, 1, 1);
+  const torch::Tensor spread = means.narrow(1, 2, 1) + means.narrow(1, 3, 1) - mx * mx - my * my;
+  const torch::Tensor shared = means.narrow(1, 4, 1) - mx * my;
+  const torch::Tensor map =
+      (2 * mx * my + kC1) * (2 * shared + kC2) / ((mx * mx + my * my + kC1) * (spread + kC2));
+  return weighted_mean(map, mask);
+}
+
 }  // namespace
 
 torch::Tensor highlight_loss(const torch::Tensor& highlight, const Batch& batch, const LossConfig& config) {
@@ -23,6 +55,9 @@ torch::Tensor highlight_loss(const torch::Tensor& highlight, const Batch& batch,
     const torch::Tensor roots = (highlight + kRootFloor).sqrt() - (batch.highlight + kRootFloor).sqrt();
     loss = loss + config.encoded * weighted_mean(smooth_abs(roots), weight);
   }
+  if (config.rms > 0) loss = loss + config.rms * picture_rms(error, batch.skin);
+  if (config.similarity > 0)
+    loss = loss + config.similarity * (1 - similarity(highlight, batch.highlight, batch.skin));
   if (config.gradient > 0) {
     for (const int axis : {2, 3}) {
       const std::int64_t last = error.size(axis) - 1;

@@ -6,7 +6,8 @@
 
 namespace faceprobe::train {
 
-// A scalar with a gradient. Default: smoothed absolute error of light, of its square root and of its differences, weighed by skin.
+// A scalar with a gradient. Default: smoothed absolute error of light, of its square root and of its differences, weighed by skin;
+// optionally with what the benchmark measures, each picture's root mean square and structural similarity on the skin.
 // Paper (Sec. 3.1): mean squared error of light.
 torch::Tensor highlight_loss(const torch::Tensor& highlight, const Batch& batch, const LossConfig& config);
 torch::Tensor squared_loss(const torch::Tensor& highlight, const Batch& batch);

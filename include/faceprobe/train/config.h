@@ -19,11 +19,15 @@ struct AugmentConfig {
   double grey_share = 0.05;          // of samples without colour
   double no_mask_share = 0.15;       // of samples that are given no face mask
   double occluder_share = 0.1;       // of samples that something plain is put before
+  double zoom_share = 0.2;           // of samples that are enlarged or made smaller, and moved
+  double cut_share = 0.15;           // of samples with sides cut off, as of a face at the edge of its photo
 };
 
 struct LossConfig {
   double encoded = 0.5;     // weight of the error of square roots, which counts dark skin as much as bright
   double gradient = 0.25;   // weight of the error of differences between neighbours
+  double rms = 0;           // weight of each picture's root mean square error: what the benchmark measures
+  double similarity = 0;    // weight of one minus the structural similarity
   double elsewhere = 0.25;  // weight of a pixel that is not the face's skin, which has 1
 };
 
