@@ -3,19 +3,20 @@
 # without touching the others.
 #
 #   bench/results.sh --data DIR [BUILD_DIR]
-#   bench/results.sh --data DIR --only direction [BUILD_DIR]     one of: best_case separation highlight highlight_photos
-#                                                                highlight_net robustness direction speed
+#   bench/results.sh --data DIR --only direction [BUILD_DIR]     one of: best_case separation highlight highlight_makehuman
+#                                                                highlight_photos highlight_net robustness direction speed
 #                                                                synth_cycles synth_speed synth_rate
 #   bench/results.sh --data DIR --faces FACES ...                for highlight: the dev faces of docs/training.md; left as it
 #                                                                is without them
 #
-# BUILD_DIR (build/test) is built with FACEPROBE_BUILD_BENCH=ON, and FACEPROBE_TRAIN=ON for highlight and highlight_photos; speed and
+# BUILD_DIR (build/test) is built with FACEPROBE_BUILD_BENCH=ON, and FACEPROBE_TRAIN=ON for the three of highlight layers; speed and
 # synth_rate measure the command of build/release, which scripts/build.sh makes. Ends with 1 when a benchmark misses its bar; its section is
 # written all the same.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-sections=(best_case separation highlight highlight_photos highlight_net robustness direction speed synth_cycles synth_speed synth_rate)
+sections=(best_case separation highlight highlight_makehuman highlight_photos highlight_net robustness direction speed synth_cycles
+          synth_speed synth_rate)
 data=
 faces=
 only=
@@ -44,6 +45,7 @@ title_of() {
     best_case) echo "Light, with everything else known" ;;
     separation) echo "Highlight separation on objects" ;;
     highlight) echo "Highlight layers of synthetic faces" ;;
+    highlight_makehuman) echo "Highlight layers of another model's heads" ;;
     highlight_photos) echo "Highlight layers of photos" ;;
     highlight_net) echo "What the highlight network costs" ;;
     robustness) echo "Many kinds of photo" ;;
@@ -59,6 +61,7 @@ title_of() {
 command_of() {
   case $1 in
     highlight) echo "BUILD/bin/faceprobe eval highlight --data FACES --weights net=models/highlight.safetensors" ;;
+    highlight_makehuman) echo "bench/makehuman.sh --data DIR" ;;
     speed) echo "bench/speed.sh" ;;
     synth_speed) echo "BUILD/bin/bench_synth_speed" ;;
     synth_rate) echo "bench/synth_rate.sh --data DIR" ;;
@@ -69,6 +72,7 @@ command_of() {
 run_section() {
   case $1 in
     highlight) "$build/bin/faceprobe" eval highlight --data "$faces" --weights net="$root/models/highlight.safetensors" ;;
+    highlight_makehuman) "$root/bench/makehuman.sh" --data "$data" "$build" ;;
     speed) "$root/bench/speed.sh" ;;
     synth_speed) "$build/bin/bench_synth_speed" ;;
     synth_rate) "$root/bench/synth_rate.sh" --data "$data" ;;

@@ -3,6 +3,7 @@
 // stands between the two), which side a red lamp lights, and the time of either at equal error. Needs Blender 3.x.
 
 #include "cycles/report.h"
+#include "cycles/run_blender.h"
 #include "faceprobe/core/error.h"
 
 #include <CLI/CLI.hpp>
@@ -34,10 +35,7 @@ int main(int argc, char** argv) {
   app.add_flag("--no-speed", no_speed, "leave out the timing");
   CLI11_PARSE(app, argc, argv);
   try {
-    if (bench::blender_version(options.blender).empty()) {
-      throw Error(ExitCode::kModel, "There is no Blender (" + options.blender +
-                                        "); install Debian's package blender, or name the program with --blender.");
-    }
+    bench::require_blender(options.blender);
     const bench::Comparison comparison = bench::compare_with_cycles(options);
     bench::print_errors(comparison, options);
     bench::print_lamp(comparison);

@@ -1,25 +1,16 @@
 #include "cycles/blender.h"
 
+#include "cycles/passes.h"
+#include "cycles/run_blender.h"
 #include "faceprobe/core/error.h"
 #include "faceprobe/io/picture_file.h"
 
-#include <OpenImageIO/imageio.h>
-#include <array>
-#include <cstdio>
-#include <cstdlib>
 #include <fstream>
-#include <memory>
 #include <nlohmann/json.hpp>
 
 namespace faceprobe::bench {
 
 namespace {
-
-std::string quoted(const std::string& word) {
-  std::string out = "'";
-  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
 
 template <class Matrix>
 void append(std::ofstream& file, const Matrix& matrix) {
@@ -29,40 +20,12 @@ void append(std::ofstream& file, const Matrix& matrix) {
              static_cast<std::streamsize>(static_cast<std::size_t>(rows.size()) * sizeof(Scalar)));
 }
 
-// The channels whose names end in `.PASS.R` and so on.
-Image pass(const OIIO::ImageSpec& spec, const std::vector<float>& values, const std::string& name,
-           const std::string& letters, const std::filesystem::path& path) {
-  std::vector<std::size_t> channels;
-  for (const char letter : letters) {
-    const std::string end = "." + name + "." + letter;
-    for (std::size_t c = 0; c < spec.channelnames.size(); ++c) {
-      if (spec.channelnames[c].ends_with(end)) channels.push_back(c);
-    }
-  }
-  if (channels.size() != letters.size()) {
-    throw Error(ExitCode::kModel, path.string() + " has no pass " + name + "; Blender 3.x writes it.");
-  }
-  Image out(spec.width, spec.height, static_cast<int>(letters.size()));
-  const std::size_t stride = spec.channelnames.size();
-  for (std::size_t i = 0; i < out.pixel_count(); ++i) {
-    for (std::size_t c = 0; c < channels.size(); ++c)
-      out.values()[i * channels.size() + c] = values[i * stride + channels[c]];
-  }
-  return out;
-}
-
 CyclesPicture read_passes(const std::filesystem::path& path) {
-  const auto file = OIIO::ImageInput::open(path.string());
-  if (!file) throw Error(ExitCode::kModel, "Blender left no picture " + path.string() + "; its log is beside it.");
-  const OIIO::ImageSpec spec = file->spec();
-  std::vector<float> values(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels));
-  if (!file->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values.data())) {
-    throw Error(ExitCode::kModel, "Cannot read " + path.string() + ".");
-  }
+  const PassFile file(path);
   CyclesPicture picture;
-  picture.diffuse = pass(spec, values, "DiffDir", "RGB", path);
-  picture.glossy = pass(spec, values, "GlossDir", "RGB", path);
-  picture.coverage = pass(spec, values, "Combined", "A", path);
+  picture.diffuse = file.pass("DiffDir", "RGB");
+  picture.glossy = file.pass("GlossDir", "RGB");
+  picture.coverage = file.pass("Combined", "A");
   return picture;
 }
 
@@ -106,10 +69,7 @@ std::vector<CyclesPicture> render_with_cycles(const CyclesSetup& setup, const st
   const std::filesystem::path job_file = folder / "job.json";
   std::ofstream(job_file) << job.dump(1);
   std::filesystem::remove(report_file);
-  const std::string command = quoted(setup.blender) + " --background --factory-startup --python-exit-code 1 --python " +
-                              quoted(FACEPROBE_CYCLES_SCRIPT) + " -- " + quoted(job_file.string()) + " > " +
-                              quoted(log_file.string()) + " 2>&1";
-  if (std::system(command.c_str()) != 0 || !std::filesystem::exists(report_file)) {
+  if (!run_blender(setup.blender, FACEPROBE_CYCLES_SCRIPT, job_file, log_file) || !std::filesystem::exists(report_file)) {
     throw Error(ExitCode::kModel, "Blender (" + setup.blender + ") did not finish; see " + log_file.string() +
                                       ". Blender 3.x with Cycles is needed; name it with --blender.");
   }
@@ -121,15 +81,6 @@ std::vector<CyclesPicture> render_with_cycles(const CyclesSetup& setup, const st
     out.back().seconds = seconds.at(i);
   }
   return out;
-}
-
-std::string blender_version(const std::string& blender) {
-  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen((quoted(blender) + " --version 2>/dev/null").c_str(), "r"),
-                                                   pclose);
-  std::array<char, 200> line{};
-  if (!pipe || !std::fgets(line.data(), static_cast<int>(line.size()), pipe.get())) return {};
-  const std::string text = line.data();
-  return text.rfind("Blender ", 0) == 0 ? text.substr(8, text.find_first_of("\r\n") - 8) : std::string();
 }
 
 }  // namespace faceprobe::bench

@@ -41,7 +41,4 @@ void write_map_for_blender(const std::filesystem::path& path, const EnvMap& map)
 // One picture per render. Throws Error(kModel) when Blender cannot be run or fails; the log's name is in the sentence.
 std::vector<CyclesPicture> render_with_cycles(const CyclesSetup& setup, const std::vector<CyclesRender>& renders);
 
-// "3.4.1"; empty when there is no such program.
-std::string blender_version(const std::string& blender);
-
 }  // namespace faceprobe::bench

@@ -40,8 +40,7 @@ torch::Tensor similarity(const torch::Tensor& estimate, const torch::Tensor& tru
   const torch::Tensor my = means.narrow(1, 1, 1);
   const torch::Tensor spread = means.narrow(1, 2, 1) + means.narrow(1, 3, 1) - mx * mx - my * my;
   const torch::Tensor shared = means.narrow(1, 4, 1) - mx * my;
-  const torch::Tensor map =
-      (2 * mx * my + kC1) * (2 * shared + kC2) / ((mx * mx + my * my + kC1) * (spread + kC2));
+  const torch::Tensor map = (2 * mx * my + kC1) * (2 * shared + kC2) / ((mx * mx + my * my + kC1) * (spread + kC2));
   return weighted_mean(map, mask);
 }
 
@@ -56,8 +55,7 @@ torch::Tensor highlight_loss(const torch::Tensor& highlight, const Batch& batch,
     loss = loss + config.encoded * weighted_mean(smooth_abs(roots), weight);
   }
   if (config.rms > 0) loss = loss + config.rms * picture_rms(error, batch.skin);
-  if (config.similarity > 0)
-    loss = loss + config.similarity * (1 - similarity(highlight, batch.highlight, batch.skin));
+  if (config.similarity > 0) loss = loss + config.similarity * (1 - similarity(highlight, batch.highlight, batch.skin));
   if (config.gradient > 0) {
     for (const int axis : {2, 3}) {
       const std::int64_t last = error.size(axis) - 1;

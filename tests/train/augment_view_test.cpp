@@ -7,8 +7,8 @@ namespace {
 
 // Light that grows evenly to the right and downwards; a clipped pixel and a skin pixel in the middle.
 TrainingPicture ramp(int size) {
-  TrainingPicture picture{Image(size, size, 3), ByteImage(size, size, 3), ByteImage(size, size, 1, 1), Image(size, size, 3),
-                          ByteImage(size, size, 1, 1)};
+  TrainingPicture picture{Image(size, size, 3), ByteImage(size, size, 3), ByteImage(size, size, 1, 1),
+                          Image(size, size, 3), ByteImage(size, size, 1, 1)};
   for (int y = 0; y < size; ++y) {
     for (int x = 0; x < size; ++x) {
       for (int c = 0; c < 3; ++c) {
@@ -40,7 +40,8 @@ TEST(AugmentView, ZoomKeepsItsCentreAndARampARamp) {
     for (int x = 4; x < 28; ++x) {
       const double from_x = 12 + (x + 0.5 - 12) / zoom - 0.5;
       const double from_y = 20 + (y + 0.5 - 20) / zoom - 0.5;
-      EXPECT_NEAR(larger.linear(x, y, 0), 0.01 * (from_x + 2 * from_y) + 0.1, 1e-5);  // linear interpolation is exact here
+      EXPECT_NEAR(larger.linear(x, y, 0), 0.01 * (from_x + 2 * from_y) + 0.1,
+                  1e-5);  // linear interpolation is exact here
       EXPECT_NEAR(larger.highlight(x, y, 2), 0.5 * larger.linear(x, y, 2), 1e-6);
     }
   }

@@ -28,13 +28,17 @@ SampleDraw draw_sample(const Assets& assets, const Recipe& recipe, Random& rando
     draw.sensor = {.blur_px = 0, .vignetting = 0, .read_noise = 0, .shot_noise = 0, .sharpening = 0, .jpeg_quality = 0};
     return draw;
   }
+  draw_camera(random, recipe.size_px, draw);
+  return draw;
+}
+
+void draw_camera(Random& random, int size_px, SampleDraw& draw) {
   draw.white_balance = static_cast<float>(random.between(0.35, 1.0));
   for (int c = 0; c < 3; ++c) draw.cast(c) = static_cast<float>(std::exp(random.normal(0, 0.05)));
   draw.cast /= draw.cast.dot(kLuminance);
   draw.exposure = static_cast<float>(std::exp(random.normal(0, 0.33)));
-  draw.background_blur_px = static_cast<float>(random.between(0.002, 0.02) * recipe.size_px);
+  draw.background_blur_px = static_cast<float>(random.between(0.002, 0.02) * size_px);
   draw.sensor = draw_sensor({}, random);
-  return draw;
 }
 
 Eigen::Vector3f exposure_gain(const SampleDraw& draw, const Eigen::Vector3f& face, const Eigen::Vector3f& light,

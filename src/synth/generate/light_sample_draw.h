@@ -20,6 +20,8 @@ struct SampleDraw {
 };
 
 SampleDraw draw_sample(const Assets& assets, const Recipe& recipe, Random& random, int index);
+// The part of it that is the camera's: white balance, exposure, blur of the background, sensor.
+void draw_camera(Random& random, int size_px, SampleDraw& draw);
 
 // Gain per channel that exposes a face of mean radiance `face` (skin of tone `tone`) under light of colour `light`.
 Eigen::Vector3f exposure_gain(const SampleDraw& draw, const Eigen::Vector3f& face, const Eigen::Vector3f& light,
