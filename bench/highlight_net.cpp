@@ -6,6 +6,7 @@
 #include "faceprobe/face/geometry.h"
 #include "faceprobe/io/data_files.h"
 #include "faceprobe/io/photo.h"
+#include "faceprobe/net/both_ways.h"
 #include "faceprobe/pipeline/estimate.h"
 #include "support/photos.h"
 #include "support/statistics.h"
@@ -72,6 +73,7 @@ void report(const std::filesystem::path& data, const std::filesystem::path& weig
   row("crop of 128 px", median_ms(21, [&] { (void)network.highlight(small, {}, {}); }), "-");
   const Image crop = waves(256, 256);
   row("crop of 256 px", median_ms(21, [&] { (void)network.highlight(crop, {}, {}); }), "80");
+  row("crop of 256 px, both ways", median_ms(21, [&] { (void)net::highlight_both_ways(network, crop, {}, {}); }), "80");
   for (const bool classical : {false, true}) {
     pipeline::EstimateOptions estimate_options;
     estimate_options.threads = threads;

@@ -4,6 +4,7 @@
 #include "faceprobe/highlight/separate.h"
 #include "faceprobe/io/atomic_file.h"
 #include "faceprobe/io/picture_file.h"
+#include "faceprobe/net/both_ways.h"
 #include "faceprobe/net/torch_highlight_net.h"
 
 #include <spdlog/spdlog.h>
@@ -40,7 +41,7 @@ eval::HighlightMethod network(const std::string& named, const net::TorchHighligh
       equals == std::string::npos ? std::filesystem::path(file).stem().string() : named.substr(0, equals);
   auto net = std::make_shared<net::TorchHighlightNet>(file, options);
   return {name, [net](const Image& linear, const ByteImage& clip, const ByteImage& mask) {
-            return net->highlight(linear, clip, mask);
+            return net::highlight_both_ways(*net, linear, clip, mask);  // as estimate does
           }};
 }
 

@@ -3,6 +3,7 @@
 #include "faceprobe/face/geometry.h"
 #include "faceprobe/highlight/upsample.h"
 #include "faceprobe/io/data_files.h"
+#include "faceprobe/net/both_ways.h"
 #include "faceprobe/net/highlight_net.h"
 
 #include <algorithm>
@@ -65,7 +66,7 @@ struct HighlightSeparator::Network {
     std::transform(skin.values().begin(), skin.values().end(), where.values().begin(),
                    [](std::uint8_t value) { return value != 0 ? std::uint8_t{1} : std::uint8_t{0}; });
     const ByteImage small_flags = face::crop_flags(flags, copy);
-    Image found = net.highlight(small, small_flags, face::crop_flags(where, copy));
+    Image found = net::highlight_both_ways(net, small, small_flags, face::crop_flags(where, copy));
     fill_clipped(small_flags, small, found);  // here, where no pixel stands apart from its neighbours
     highlight::Layers layers;
     layers.highlight = highlight::upsample_highlight(found, small, picture, where, {.threads = threads});

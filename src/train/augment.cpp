@@ -1,6 +1,7 @@
 #include "train/augment.h"
 
 #include "faceprobe/core/color.h"
+#include "faceprobe/core/mirror.h"
 #include "faceprobe/synth/photo_layers.h"
 #include "train/augment_view.h"
 
@@ -9,16 +10,6 @@
 
 namespace faceprobe::train {
 namespace {
-
-template <class Picture>
-void mirror(Picture& picture) {
-  const int channels = picture.channels();
-  for (int y = 0; y < picture.height(); ++y) {
-    for (int x = 0; x < picture.width() / 2; ++x) {
-      std::swap_ranges(picture.pixel(x, y), picture.pixel(x, y) + channels, picture.pixel(picture.width() - 1 - x, y));
-    }
-  }
-}
 
 // Rec.709 luminance in all channels of both layers, as a grey photo has.
 void take_colour(TrainingPicture& picture) {

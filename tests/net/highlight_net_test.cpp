@@ -1,5 +1,6 @@
 #include "faceprobe/net/highlight_net.h"
 
+#include "faceprobe/net/both_ways.h"
 #include "faceprobe/net/torch_highlight_net.h"
 #include "net/fixtures.h"
 #include "net/torch/weights.h"
@@ -210,6 +211,19 @@ TEST(HighlightNets, OneThreadIsAsGoodAsMany) {
   const Image one = HighlightNet(folder / "w", {.threads = 1}).highlight(picture, {}, {});
   for (const int threads : {2, 3, 7})
     EXPECT_EQ(HighlightNet(folder / "w", {.threads = threads}).highlight(picture, {}, {}), one);
+}
+
+TEST(HighlightNets, BothWaysIsTheSameForTheMirrorImage) {
+  const testing::TempFolder folder;
+  testing::write_unet(folder / "w", testing::small_options());
+  const HighlightNet net(folder / "w", {.threads = 1});
+  const Image picture = random_picture(23, 18, 0, 1.2F);
+  ByteImage clip(23, 18, 1), mask(23, 18, 1, 1);
+  clip(4, 5) = 3, mask(20, 2) = 0;
+  const Image highlight = highlight_both_ways(net, picture, clip, mask);
+  EXPECT_EQ(highlight_both_ways(net, mirrored(picture), mirrored(clip), mirrored(mask)), mirrored(highlight));
+  EXPECT_NE(highlight, net.highlight(picture, clip, mask));  // no network is symmetric by itself
+  expect_within_picture(highlight, picture);
 }
 
 TEST(HighlightNets, TheQuickOneRunsNoMscr) {
