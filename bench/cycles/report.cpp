@@ -1,5 +1,7 @@
 #include "cycles/report.h"
 
+#include "cycles/run_blender.h"
+
 #include "cycles/compare.h"
 #include "faceprobe/core/color.h"
 #include "faceprobe/io/picture_file.h"
