@@ -50,6 +50,18 @@ TEST(PackedRows, DropWhatIsNegligibleInItsRow) {
   EXPECT_EQ(packed.blocks()[0].column, (std::vector<int>{0, 1}));
 }
 
+// A denormal factor makes a product many times slower.
+TEST(PackedRows, HoldZeroWhereAValueIsNothingToItsRow) {
+  const PackedRows packed = pack_rows(
+      2, 2, {{0, 1}}, 1,
+      [](int row, float* out) {
+        out[0] = 1.0F;
+        out[1] = row == 0 ? 1e-39F : 0.5F;
+      },
+      1e-5F);
+  EXPECT_EQ(packed.dense(), (RowMatrix(2, 2) << 1.0F, 0.0F, 1.0F, 0.5F).finished());
+}
+
 TEST(MatrixProduct, AgreesWithDoublesForAnyNumberOfColumns) {
   RowMatrix plain;
   const PackedRows packed = windows(150, 300, 1, plain);
