@@ -74,6 +74,8 @@ void add_finetune(CLI::App& program, Action& action) {
   command->add_option("--steps", options->config.steps, "steps")->capture_default_str();
   command->add_option("--photos", options->config.photos, "photos of one person in a step")->capture_default_str();
   command->add_option("--most-photos", options->photos.most_photos, "photos of one person at all")->capture_default_str();
+  command->add_flag("--calibrate", options->photos.calibrate,
+                    "decode each photo by the response curve that its skin tells of, not as sRGB");
   command->add_option("--synthetic-batch", options->config.synthetic_batch, "synthetic faces in a step")
       ->capture_default_str();
   command->add_option("--learning-rate", options->config.learning_rate, "AdamW's")->capture_default_str();

@@ -1,9 +1,9 @@
 #include "train/batch.h"
 
+#include "faceprobe/core/permutation.h"
 #include "train/augment.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace faceprobe::train {
 namespace {
@@ -65,13 +65,8 @@ std::vector<int> samples_of_step(std::uint64_t seed, std::int64_t step, int batc
   std::int64_t round_made = -1;
   for (std::int64_t k = step * batch; k < (step + 1) * batch; ++k) {
     const std::int64_t round = k / sample_count;
-    if (round != round_made) {  // Fisher and Yates
-      order.resize(static_cast<std::size_t>(sample_count));
-      std::iota(order.begin(), order.end(), 0);
-      Random random({seed, 0x08D38, static_cast<std::uint64_t>(round)});
-      for (int i = sample_count - 1; i > 0; --i) {
-        std::swap(order[static_cast<std::size_t>(i)], order[static_cast<std::size_t>(random.below(i + 1))]);
-      }
+    if (round != round_made) {
+      order = permutation(sample_count, Random({seed, 0x08D38, static_cast<std::uint64_t>(round)}));
       round_made = round;
     }
     samples.push_back(order[static_cast<std::size_t>(k % sample_count)]);

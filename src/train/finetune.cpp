@@ -2,7 +2,7 @@
 
 #include "faceprobe/core/error.h"
 #include "faceprobe/core/parallel.h"
-#include "faceprobe/core/random.h"
+#include "faceprobe/core/permutation.h"
 #include "faceprobe/io/atomic_file.h"
 #include "faceprobe/net/model_file.h"
 
@@ -72,20 +72,17 @@ torch::Tensor padded_gradient(const Image& gradient, const torch::Tensor& like) 
 }
 
 // `count` different photos of a person.
-std::vector<std::size_t> drawn(std::size_t available, int count, Random random) {
-  std::vector<std::size_t> order(available);
-  for (std::size_t i = 0; i < available; ++i) order[i] = i;
-  for (std::size_t i = available - 1; i > 0; --i)
-    std::swap(order[i], order[static_cast<std::size_t>(random.below(static_cast<int>(i) + 1))]);
+std::vector<int> drawn(std::size_t available, int count, Random random) {
+  std::vector<int> order = permutation(static_cast<int>(available), random);
   order.resize(std::min(available, static_cast<std::size_t>(count)));
   return order;
 }
 
 // Nothing when the photos show too little in common.
-std::optional<PersonPhotos> group_of(const PersonSet& person, const std::vector<std::size_t>& chosen,
+std::optional<PersonPhotos> group_of(const PersonSet& person, const std::vector<int>& chosen,
                                      const PersonLossOptions& options) {
   std::vector<PersonPhoto> photos;
-  for (const std::size_t i : chosen) photos.push_back(*person.photos[i]);
+  for (const int i : chosen) photos.push_back(*person.photos[static_cast<std::size_t>(i)]);
   try {
     PersonPhotos group(std::move(photos), person.regions, options);
     if (group.pixels() >= kLeastSkin) return group;
@@ -177,12 +174,13 @@ class Finetuning {
   bool add_people(std::int64_t step, FinetuneRow& sum) {
     Random random({run_.config.seed, 0xF17E, static_cast<std::uint64_t>(step)});
     const PersonSet& person = *trained_[static_cast<std::size_t>(random.below(static_cast<int>(trained_.size())))];
-    const std::vector<std::size_t> chosen = drawn(person.photos.size(), run_.config.photos, random.split(1));
+    const std::vector<int> chosen = drawn(person.photos.size(), run_.config.photos, random.split(1));
     const std::optional<PersonPhotos> group = group_of(person, chosen, loss_);
     if (!group) return false;
     std::vector<Shown> shown;
     std::vector<Image> layers;
-    for (const std::size_t i : chosen) {
+    for (const int number : chosen) {
+      const auto i = static_cast<std::size_t>(number);
       shown.push_back(show(model_, *person.photos[i], person.masks[i], multiple_));
       layers.push_back(layer_of(shown.back(), *person.photos[i]));
     }
@@ -202,13 +200,13 @@ class Finetuning {
     for (const PersonSet* person : held_out_) {
       PeopleScore own;
       for (int round = 0; round < kScoreRounds; ++round) {
-        const std::vector<std::size_t> chosen =
-            drawn(person->photos.size(), run_.config.photos,
-                  Random({run_.config.seed, 0x5C03, static_cast<std::uint64_t>(round)}));
+        const std::vector<int> chosen = drawn(person->photos.size(), run_.config.photos,
+                                              Random({run_.config.seed, 0x5C03, static_cast<std::uint64_t>(round)}));
         const std::optional<PersonPhotos> group = group_of(*person, chosen, loss_);
         if (!group) continue;
         std::vector<Image> layers, none;
-        for (const std::size_t i : chosen) {
+        for (const int number : chosen) {
+          const auto i = static_cast<std::size_t>(number);
           const PersonPhoto& photo = *person->photos[i];
           layers.push_back(layer_of(show(model_, photo, person->masks[i], multiple_), photo));
           none.emplace_back(photo.linear.width(), photo.linear.height(), 3);

@@ -1,5 +1,6 @@
 #include "faceprobe/train/people.h"
 
+#include "faceprobe/core/color.h"
 #include "faceprobe/core/error.h"
 #include "faceprobe/core/region.h"
 #include "faceprobe/face/geometry.h"
@@ -8,6 +9,7 @@
 #include "train/finetune_guards.h"
 #include "train/histogram_transfer.h"
 #include "train/person_loss.h"
+#include "train/radiometric.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,6 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr int kCalibrationPx = 512;  // long side of a face at most, where its curve is looked for
 constexpr double kLeastFacePx = 80;  // wide: below, highlights are a few pixels
 
 bool is_photo(const fs::path& path) {
@@ -43,6 +46,7 @@ std::map<std::string, std::vector<fs::path>> photos_by_person(const fs::path& fo
 struct Candidate {
   PersonPhoto photo;
   ByteImage mask;
+  bool calibrated = false;
 };
 
 class Reader {
@@ -57,7 +61,7 @@ class Reader {
 
   // Nothing when the photo is unsuitable; then `why` says so.
   std::optional<Candidate> read(const fs::path& file, std::string& why) const {
-    const io::Photo photo = io::load_photo(file);
+    io::Photo photo = io::load_photo(file);
     if (photo.grey) return refused(why, "it is grey");
     face::Camera camera;
     camera.centre_x_px = 0.5 * photo.linear.width();
@@ -72,13 +76,31 @@ class Reader {
     if (static_cast<double>(face.box.width) < kLeastFacePx) {
       return refused(why, "its face is " + std::to_string(static_cast<int>(face.box.width)) + " px wide");
     }
-    return prepare(photo, face, camera, why);
+    const bool calibrated = options_.calibrate && calibrate(face, camera, photo);
+    std::optional<Candidate> candidate = prepare(photo, face, camera, why);
+    if (candidate) candidate->calibrated = calibrated;
+    return candidate;
   }
 
  private:
   static std::nullopt_t refused(std::string& why, const std::string& reason) {
     why = reason;
     return std::nullopt;
+  }
+
+  // Decodes the photo by its own response curve; false when its skin gives no reason to. Such curves are told from small differences of
+  // skin's colour, so they are looked for at the photo's own size.
+  bool calibrate(const face::Face& face, const face::Camera& camera, io::Photo& photo) const {
+    const face::GeometryOptions geometry{.long_side_px = kCalibrationPx};
+    const face::Crop crop = face::face_crop(face, photo.linear.width(), photo.linear.height(), geometry);
+    const ByteImage regions = face::rasterize_regions(face, camera, mesh_, crop);
+    ByteImage skin(crop.width, crop.height, 1);
+    for (std::size_t i = 0; i < regions.pixel_count(); ++i)
+      skin.data()[i] = is_probe_skin(static_cast<Region>(regions.data()[i])) ? 1 : 0;
+    const ResponseFit fit = fit_response(skin_triples(encode_srgb(face::crop_picture(photo.linear, crop)), skin));
+    if (fit.kept_srgb) return false;
+    photo.linear = linearise(encode_srgb(photo.linear), fit.contrast);
+    return true;
   }
 
   std::optional<Candidate> prepare(const io::Photo& photo, const face::Face& face, const face::Camera& camera,
@@ -154,7 +176,8 @@ std::vector<PersonSet> load_people(const fs::path& folder, const PeopleOptions& 
   const Reader reader(options);
   std::vector<PersonSet> people;
   for (const auto& [name, files] : photos_by_person(folder)) {
-    PersonSet person{.name = name, .photos = {}, .masks = {}, .regions = reader.regions(), .left_out = {}};
+    PersonSet person{
+        .name = name, .photos = {}, .masks = {}, .regions = reader.regions(), .left_out = {}, .calibrated = 0};
     std::vector<Candidate> candidates;
     for (const fs::path& file : files) {
       if (static_cast<int>(candidates.size()) == options.most_photos) break;
@@ -166,9 +189,12 @@ std::vector<PersonSet> load_people(const fs::path& folder, const PeopleOptions& 
       }
       if (!why.empty()) person.left_out.push_back(file.filename().string() + ": " + why);
     }
+    person.calibrated =
+        static_cast<int>(std::ranges::count_if(candidates, [](const Candidate& c) { return c.calibrated; }));
     if (progress) {
       progress(name + ": " + std::to_string(candidates.size()) + " photos of " + std::to_string(files.size()) +
-               " can be used");
+               " can be used" +
+               (options.calibrate ? ", " + std::to_string(person.calibrated) + " by curves of their own" : ""));
     }
     if (static_cast<int>(candidates.size()) < options.least_photos) continue;
     if (options.match_colours) match_colours(candidates);

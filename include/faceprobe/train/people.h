@@ -24,6 +24,8 @@ struct PeopleOptions {
   int least_photos = 4;       // people with fewer are left out
   int most_photos = 12;       // of one person
   bool match_colours = true;  // by histogram transfer, as the paper does
+  bool calibrate =
+      false;  // each photo by the response curve its skin tells of (train/radiometric.h); sRGB where it tells none
   int threads = 0;
 
   std::string validate() const;  // empty when usable
@@ -35,6 +37,7 @@ struct PersonSet {
   std::vector<ByteImage> masks;                            // skin in each crop, non-zero = skin
   ByteImage regions;                                       // of the square
   std::vector<std::string> left_out;                       // "NAME: why"
+  int calibrated = 0;                                      // photos whose curve was not sRGB's
 };
 
 // Every folder at or below `folder` that holds photos is a person, named by its path from there. Folders that cannot be read throw

@@ -1,0 +1,95 @@
+// Photos of people from files: a real portrait, as the camera saw it and as others would have.
+#include "faceprobe/train/people.h"
+
+#include "faceprobe/core/color.h"
+#include "faceprobe/core/error.h"
+#include "faceprobe/io/data_files.h"
+#include "faceprobe/io/photo.h"
+#include "faceprobe/io/picture_file.h"
+#include "train/person_loss.h"
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <string>
+
+namespace faceprobe::train {
+namespace {
+
+class People : public ::testing::Test {
+ protected:
+  People()
+      : folder_(std::filesystem::temp_directory_path() / ("faceprobe_people_" + std::to_string(::getpid()))),
+        portrait_(io::load_photo(io::data_file("samples/grace_hopper.jpg")).linear) {
+    std::filesystem::create_directories(folder_);
+  }
+  ~People() override {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+  }
+
+  void put(const std::string& name, const ByteImage& picture) const {
+    const std::filesystem::path path = folder_ / name;
+    std::filesystem::create_directories(path.parent_path());
+    io::write_picture(path, picture);
+  }
+  // At another exposure, the lights' colours as they were.
+  Image exposed(float gain) const {
+    Image picture = portrait_;
+    for (float& value : picture.values()) value = std::min(1.0F, gain * value);
+    return picture;
+  }
+
+  std::filesystem::path folder_;
+  Image portrait_;
+};
+
+TEST_F(People, ManyExposuresOfOneFaceAreOnePersonAndItsColoursAgree) {
+  for (int i = 0; i < 4; ++i)
+    put("hopper/" + std::to_string(i) + ".png", encode_srgb(exposed(1.0F - 0.15F * static_cast<float>(i))));
+  put("nobody/0.png", ByteImage(200, 200, 3, 90));
+  const std::vector<PersonSet> people = load_people(folder_, {.least_photos = 4});
+  ASSERT_EQ(people.size(), 1U);
+  EXPECT_EQ(people[0].name, "hopper");
+  ASSERT_EQ(people[0].photos.size(), 4U);
+  EXPECT_TRUE(people[0].left_out.empty());
+  // The same face in the same place: no skin is lost to misalignment, and after the histogram transfer the chromaticities are of rank one
+  // but for rounding to bytes.
+  std::vector<PersonPhoto> photos;
+  std::vector<Image> nothing;
+  for (const auto& photo : people[0].photos) {
+    photos.push_back(*photo);
+    nothing.emplace_back(photo->linear.width(), photo->linear.height(), 3);
+  }
+  const PersonPhotos group(std::move(photos), people[0].regions);
+  EXPECT_GT(group.pixels(), 1000);
+  EXPECT_LT(group.loss(nothing).residual, 5e-3);  // different people's photos show ten times that
+}
+
+TEST_F(People, UnsuitablePhotosAreLeftOutWithTheReason) {
+  for (int i = 0; i < 2; ++i) put("hopper/good" + std::to_string(i) + ".png", encode_srgb(portrait_));
+  Image grey = portrait_;
+  for (std::size_t i = 0; i < grey.pixel_count(); ++i)
+    std::fill_n(grey.data() + 3 * i, 3, luminance(grey.data() + 3 * i));
+  put("hopper/grey.png", encode_srgb(grey));
+  put("hopper/nobody.png", ByteImage(200, 200, 3, 90));
+  put("hopper/overexposed.png", encode_srgb(exposed(6)));
+  const std::vector<PersonSet> people = load_people(folder_, {.least_photos = 2});
+  ASSERT_EQ(people.size(), 1U);
+  EXPECT_EQ(people[0].photos.size(), 2U);
+  ASSERT_EQ(people[0].left_out.size(), 3U);
+  EXPECT_NE(people[0].left_out[0].find("grey.png: it is grey"), std::string::npos) << people[0].left_out[0];
+  EXPECT_NE(people[0].left_out[1].find("nobody.png: "), std::string::npos) << people[0].left_out[1];
+  EXPECT_NE(people[0].left_out[2].find("overexposed.png: "), std::string::npos) << people[0].left_out[2];
+}
+
+TEST_F(People, FoldersThatAreNotThereOrEmptyAreRefused) {
+  EXPECT_THROW(load_people(folder_ / "absent", {}), Error);
+  EXPECT_THROW(load_people(folder_, {}), Error);
+  EXPECT_THROW(load_people(folder_, {.least_photos = 1}), Error);
+}
+
+}  // namespace
+}  // namespace faceprobe::train
