@@ -11,10 +11,14 @@ written to "out" as EXR with its passes, and "report" lists the seconds of each,
 
 import array
 import json
+import pathlib
 import sys
 import time
 
 import bpy
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+from plain_cycles import plain_cycles  # noqa: E402
 
 
 def to_blender(values):
@@ -104,29 +108,12 @@ def set_world(scene, path):
 
 
 def set_cycles(scene, job):
-    scene.render.engine = "CYCLES"
-    scene.render.resolution_x, scene.render.resolution_y = job["width"], job["height"]
-    scene.render.resolution_percentage = 100
+    plain_cycles(scene, job["width"], job["height"], job["threads"], ("diffuse_direct", "glossy_direct"))
     scene.render.film_transparent = True
     scene.render.use_persistent_data = True  # the ray-tracing structure is built once, not once a render
-    scene.render.threads_mode = "FIXED" if job["threads"] > 0 else "AUTO"
-    if job["threads"] > 0:
-        scene.render.threads = job["threads"]
-    scene.render.image_settings.file_format = "OPEN_EXR_MULTILAYER"
-    scene.render.image_settings.color_depth = "32"
-    scene.view_settings.view_transform = "Standard"
-    cycles = scene.cycles
-    cycles.device = "CPU"
-    cycles.use_adaptive_sampling = False
-    cycles.use_denoising = False
-    cycles.use_auto_tile = False
-    cycles.pixel_filter_type = "BOX"
-    cycles.max_bounces = 0  # direct light; light that the lobe's own samples find is part of it
-    cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0
-    cycles.blur_glossy = 0
-    layer = scene.view_layers[0]
-    layer.use_pass_diffuse_direct = True
-    layer.use_pass_glossy_direct = True
+    scene.cycles.use_auto_tile = False
+    scene.cycles.pixel_filter_type = "BOX"
+    scene.cycles.max_bounces = 0  # direct light; light that the lobe's own samples find is part of it
 
 
 def main():

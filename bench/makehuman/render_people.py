@@ -16,8 +16,10 @@ import sys
 import bpy
 import mathutils
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE), str(HERE.parent / "cycles")]
 from people import Store  # noqa: E402
+from plain_cycles import plain_cycles  # noqa: E402
 
 METRES = 0.1  # MakeHuman counts in decimetres
 SKIN_INDEX = 1
@@ -125,28 +127,8 @@ def set_world(scene, path, yaw):
     link(background.outputs[0], out.inputs["Surface"])
 
 
-def set_cycles(scene, job):
-    scene.render.engine = "CYCLES"
-    scene.render.resolution_x = scene.render.resolution_y = job["size"]
-    scene.render.resolution_percentage = 100
-    scene.render.threads_mode = "FIXED" if job["threads"] > 0 else "AUTO"
-    if job["threads"] > 0:
-        scene.render.threads = job["threads"]
-    scene.render.image_settings.file_format = "OPEN_EXR_MULTILAYER"
-    scene.render.image_settings.color_depth = "32"
-    scene.view_settings.view_transform = "Standard"
-    cycles = scene.cycles
-    cycles.device = "CPU"
-    cycles.samples = job["samples"]
-    cycles.use_adaptive_sampling = False
-    cycles.use_denoising = False
-    cycles.max_bounces = 3
-    cycles.sample_clamp_indirect = 0
-    cycles.blur_glossy = 0
-    layer = scene.view_layers[0]
-    for name in ("diffuse_direct", "diffuse_indirect", "diffuse_color", "glossy_direct", "glossy_indirect", "glossy_color",
-                 "normal", "material_index"):
-        setattr(layer, f"use_pass_{name}", True)
+PASSES = ("diffuse_direct", "diffuse_indirect", "diffuse_color", "glossy_direct", "glossy_indirect", "glossy_color", "normal",
+          "material_index")
 
 
 def render(job, store, number):
@@ -161,7 +143,9 @@ def render(job, store, number):
         place(part, look)
     set_camera(scene, middle_of_head(store, store.shape(person)), rng)
     set_world(scene, rng.choice(job["maps"]), rng.uniform(0, 2 * math.pi))
-    set_cycles(scene, job)
+    plain_cycles(scene, job["size"], job["size"], job["threads"], PASSES)
+    scene.cycles.samples = job["samples"]
+    scene.cycles.max_bounces = 3
     scene.cycles.seed = number
     # A name that is not the result's, so that a picture is there whole or not at all.
     out = pathlib.Path(job["folder"]) / f"{number:04}.exr"

@@ -3,41 +3,51 @@
 #include "faceprobe/core/error.h"
 
 #include <nlohmann/json.hpp>
+#include <type_traits>
 
 namespace faceprobe::train {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Calls visit(key, value) for every field, so that reading and writing cannot differ.
+struct Limits {
+  double low = 0, high = 0;
+  const char* allowed = nullptr;
+};
+constexpr Limits kCount{1, 1e9, "1 to 1e9"};
+constexpr Limits kShare{0, 1, "0 to 1"};
+constexpr Limits kWeight{0, 100, "0 to 100"};
+constexpr Limits kAny{};  // of what is no number, or any number
+
+// Calls visit(key, value, limits) for every field, so that reading, writing and checking cannot differ.
 template <class Config, class Visit>
 void each_field(Config& config, const Visit& visit) {
-  visit("architecture", config.architecture);
-  visit("batch", config.batch);
-  visit("steps", config.steps);
-  visit("learning_rate", config.learning_rate);
-  visit("weight_decay", config.weight_decay);
-  visit("warm_up", config.warm_up);
-  visit("final_share", config.final_share);
-  visit("average_decay", config.average_decay);
-  visit("largest_gradient", config.largest_gradient);
-  visit("seed", config.seed);
-  visit("validate_every", config.validate_every);
-  visit("validation_samples", config.validation_samples);
-  visit("save_every", config.save_every);
-  visit("mirror", config.augment.mirror);
-  visit("colour_deviation", config.augment.colour_deviation);
-  visit("exposure_deviation", config.augment.exposure_deviation);
-  visit("grey_share", config.augment.grey_share);
-  visit("no_mask_share", config.augment.no_mask_share);
-  visit("occluder_share", config.augment.occluder_share);
-  visit("zoom_share", config.augment.zoom_share);
-  visit("cut_share", config.augment.cut_share);
-  visit("loss_encoded", config.loss.encoded);
-  visit("loss_gradient", config.loss.gradient);
-  visit("loss_rms", config.loss.rms);
-  visit("loss_similarity", config.loss.similarity);
-  visit("loss_elsewhere", config.loss.elsewhere);
+  visit("architecture", config.architecture, kAny);
+  visit("batch", config.batch, Limits{1, 4096, "1 to 4096"});
+  visit("steps", config.steps, kCount);
+  visit("learning_rate", config.learning_rate, Limits{1e-9, 1, "1e-9 to 1"});
+  visit("weight_decay", config.weight_decay, kShare);
+  visit("warm_up", config.warm_up, Limits{0, 1e9, "0 to 1e9"});
+  visit("final_share", config.final_share, kShare);
+  visit("average_decay", config.average_decay, Limits{0, 0.999999, "0 to 0.999999"});
+  visit("largest_gradient", config.largest_gradient, Limits{1e-6, 1e6, "1e-6 to 1e6"});
+  visit("seed", config.seed, kAny);
+  visit("validate_every", config.validate_every, kCount);
+  visit("validation_samples", config.validation_samples, Limits{1, 1e6, "1 to 1e6"});
+  visit("save_every", config.save_every, kCount);
+  visit("mirror", config.augment.mirror, kAny);
+  visit("colour_deviation", config.augment.colour_deviation, kShare);
+  visit("exposure_deviation", config.augment.exposure_deviation, Limits{0, 2, "0 to 2"});
+  visit("grey_share", config.augment.grey_share, kShare);
+  visit("no_mask_share", config.augment.no_mask_share, kShare);
+  visit("occluder_share", config.augment.occluder_share, kShare);
+  visit("zoom_share", config.augment.zoom_share, kShare);
+  visit("cut_share", config.augment.cut_share, kShare);
+  visit("loss_encoded", config.loss.encoded, kWeight);
+  visit("loss_gradient", config.loss.gradient, kWeight);
+  visit("loss_rms", config.loss.rms, kWeight);
+  visit("loss_similarity", config.loss.similarity, kWeight);
+  visit("loss_elsewhere", config.loss.elsewhere, kShare);
 }
 
 [[noreturn]] void refuse(const std::string& what) { throw Error(ExitCode::kUsage, "The training config " + what); }
@@ -45,7 +55,7 @@ void each_field(Config& config, const Visit& visit) {
 std::string known_keys() {
   const TrainConfig config;
   std::string keys = "network";
-  each_field(config, [&](const char* key, const auto&) { keys += std::string(", ") + key; });
+  each_field(config, [&](const char* key, const auto&, const Limits&) { keys += std::string(", ") + key; });
   return keys;
 }
 
@@ -56,40 +66,15 @@ std::string outside(const char* name, double value, const char* allowed) {
 }  // namespace
 
 std::string TrainConfig::validate() const {
-  struct Limit {
-    const char* name;
-    double value, low, high;
-    const char* allowed;
-  };
-  const Limit limits[] = {
-      {"batch", static_cast<double>(batch), 1, 4096, "1 to 4096"},
-      {"steps", static_cast<double>(steps), 1, 1e9, "1 to 1e9"},
-      {"learning_rate", learning_rate, 1e-9, 1, "1e-9 to 1"},
-      {"weight_decay", weight_decay, 0, 1, "0 to 1"},
-      {"warm_up", static_cast<double>(warm_up), 0, 1e9, "0 to 1e9"},
-      {"final_share", final_share, 0, 1, "0 to 1"},
-      {"average_decay", average_decay, 0, 0.999999, "0 to 0.999999"},
-      {"largest_gradient", largest_gradient, 1e-6, 1e6, "1e-6 to 1e6"},
-      {"validate_every", static_cast<double>(validate_every), 1, 1e9, "1 to 1e9"},
-      {"validation_samples", static_cast<double>(validation_samples), 1, 1e6, "1 to 1e6"},
-      {"save_every", static_cast<double>(save_every), 1, 1e9, "1 to 1e9"},
-      {"colour_deviation", augment.colour_deviation, 0, 1, "0 to 1"},
-      {"exposure_deviation", augment.exposure_deviation, 0, 2, "0 to 2"},
-      {"grey_share", augment.grey_share, 0, 1, "0 to 1"},
-      {"no_mask_share", augment.no_mask_share, 0, 1, "0 to 1"},
-      {"occluder_share", augment.occluder_share, 0, 1, "0 to 1"},
-      {"zoom_share", augment.zoom_share, 0, 1, "0 to 1"},
-      {"cut_share", augment.cut_share, 0, 1, "0 to 1"},
-      {"loss_encoded", loss.encoded, 0, 100, "0 to 100"},
-      {"loss_gradient", loss.gradient, 0, 100, "0 to 100"},
-      {"loss_rms", loss.rms, 0, 100, "0 to 100"},
-      {"loss_similarity", loss.similarity, 0, 100, "0 to 100"},
-      {"loss_elsewhere", loss.elsewhere, 0, 1, "0 to 1"},
-  };
-  for (const Limit& limit : limits) {
-    if (!(limit.value >= limit.low && limit.value <= limit.high))
-      return outside(limit.name, limit.value, limit.allowed);
-  }
+  std::string problem;
+  each_field(*this, [&](const char* key, const auto& value, const Limits& limits) {
+    if constexpr (std::is_arithmetic_v<std::decay_t<decltype(value)>>) {
+      const auto number = static_cast<double>(value);
+      if (problem.empty() && limits.allowed != nullptr && !(number >= limits.low && number <= limits.high))
+        problem = outside(key, number, limits.allowed);
+    }
+  });
+  if (!problem.empty()) return problem;
   if (architecture != "unet" && architecture != "mscr") {
     return "The training config's architecture is \"" + architecture + "\"; there are unet and mscr.";
   }
@@ -101,7 +86,7 @@ TrainConfig train_config_from_json(const std::string& text) {
   if (!json.is_object()) refuse("is not a JSON object.");
   TrainConfig config;
   std::size_t found = 0;
-  each_field(config, [&](const char* key, auto& value) {
+  each_field(config, [&](const char* key, auto& value, const Limits&) {
     if (!json.contains(key)) return;
     ++found;
     try {
@@ -118,7 +103,7 @@ TrainConfig train_config_from_json(const std::string& text) {
   if (found != json.size()) {
     for (const auto& [key, value] : json.items()) {
       bool known = key == "network";
-      each_field(config, [&](const char* name, const auto&) { known = known || key == name; });
+      each_field(config, [&](const char* name, const auto&, const Limits&) { known = known || key == name; });
       if (!known) refuse("has the key \"" + key + "\"; there are: " + known_keys() + ".");
     }
   }
@@ -128,7 +113,7 @@ TrainConfig train_config_from_json(const std::string& text) {
 
 std::string to_json(const TrainConfig& config) {
   Json json;
-  each_field(config, [&](const char* key, const auto& value) { json[key] = value; });
+  each_field(config, [&](const char* key, const auto& value, const Limits&) { json[key] = value; });
   json["network"] = Json::parse(config.network);
   return json.dump(1);
 }
