@@ -74,6 +74,10 @@ void add_finetune(CLI::App& program, Action& action) {
   command->add_option("--steps", options->config.steps, "steps")->capture_default_str();
   command->add_option("--photos", options->config.photos, "photos of one person in a step")->capture_default_str();
   command->add_option("--most-photos", options->photos.most_photos, "photos of one person at all")->capture_default_str();
+  command
+      ->add_option("--max-expression", options->photos.max_expression,
+                   "error of the rigid mean face per width of the face, above which a photo is left out")
+      ->capture_default_str();
   command->add_flag("--calibrate", options->photos.calibrate,
                     "decode each photo by the response curve that its skin tells of, not as sRGB");
   command->add_option("--synthetic-batch", options->config.synthetic_batch, "synthetic faces in a step")

@@ -123,7 +123,7 @@ class Reader {
       landmarks.photo_px.row(i) = at.cast<float>().transpose();
     }
     out.photo.warp = face_warp(square_, landmarks, {crop.width, crop.height});
-    why = why_unsuitable(measure(out, face));
+    why = why_unsuitable(measure(out, face), {.max_reprojection_share = options_.max_expression});
     if (!why.empty()) return std::nullopt;
     return out;
   }
@@ -165,6 +165,8 @@ void match_colours(std::vector<Candidate>& photos) {
 std::string PeopleOptions::validate() const {
   if (crop_px < 32 || crop_px > 1024) return "crop_px is " + std::to_string(crop_px) + "; allowed is 32 to 1024.";
   if (square_px < 16 || square_px > 512) return "square_px is " + std::to_string(square_px) + "; allowed is 16 to 512.";
+  if (!(max_expression > 0 && max_expression <= 1))
+    return "max_expression is " + std::to_string(max_expression) + "; allowed is above 0, to 1.";
   if (least_photos < 2 || most_photos < least_photos)
     return "A person needs two photos or more, and most_photos not below least_photos.";
   return {};
@@ -187,7 +189,9 @@ std::vector<PersonSet> load_people(const fs::path& folder, const PeopleOptions& 
       } catch (const Error& error) {
         why = error.what();
       }
-      if (!why.empty()) person.left_out.push_back(file.filename().string() + ": " + why);
+      if (why.empty()) continue;
+      person.left_out.push_back(file.filename().string() + ": " + why);
+      if (progress) progress(name + "/" + person.left_out.back());
     }
     person.calibrated =
         static_cast<int>(std::ranges::count_if(candidates, [](const Candidate& c) { return c.calibrated; }));
