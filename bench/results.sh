@@ -4,29 +4,32 @@
 #
 #   bench/results.sh --data DIR [BUILD_DIR]
 #   bench/results.sh --data DIR --only direction [BUILD_DIR]     one of: best_case separation highlight highlight_makehuman
-#                                                                highlight_photos highlight_net robustness direction speed
-#                                                                synth_cycles synth_speed synth_rate
-#   bench/results.sh --data DIR --faces FACES ...                for highlight: the dev faces of docs/training.md; left as it
-#                                                                is without them
+#                                                                highlight_photos highlight_people highlight_net robustness
+#                                                                direction speed synth_cycles synth_speed synth_rate
+#   bench/results.sh --data DIR --faces FACES ...                for highlight and highlight_people: the dev faces of
+#                                                                docs/training.md; they are left as they are without them
+#   bench/results.sh --data DIR --training FACES ...             for highlight_people: the training faces, likewise
 #
-# BUILD_DIR (build/test) is built with FACEPROBE_BUILD_BENCH=ON, and FACEPROBE_TRAIN=ON for the three of highlight layers; speed and
+# BUILD_DIR (build/test) is built with FACEPROBE_BUILD_BENCH=ON, and FACEPROBE_TRAIN=ON for those of highlight layers; speed and
 # synth_rate measure the command of build/release, which scripts/build.sh makes. Ends with 1 when a benchmark misses its bar; its section is
 # written all the same.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-sections=(best_case separation highlight highlight_makehuman highlight_photos highlight_net robustness direction speed synth_cycles
-          synth_speed synth_rate)
+sections=(best_case separation highlight highlight_makehuman highlight_photos highlight_people highlight_net robustness direction
+          speed synth_cycles synth_speed synth_rate)
 data=
 faces=
+training=
 only=
 build=$root/build/test
 while [ $# -gt 0 ]; do
   case $1 in
     --data) data=${2:?--data takes a folder}; shift ;;
     --faces) faces=${2:?--faces takes a folder}; shift ;;
+    --training) training=${2:?--training takes a folder}; shift ;;
     --only) only=${2:?--only takes a section}; shift ;;
-    -*) echo "unknown option $1; there are --data, --faces and --only." >&2; exit 2 ;;
+    -*) echo "unknown option $1; there are --data, --faces, --training and --only." >&2; exit 2 ;;
     *) build=$1 ;;
   esac
   shift
@@ -47,6 +50,7 @@ title_of() {
     highlight) echo "Highlight layers of synthetic faces" ;;
     highlight_makehuman) echo "Highlight layers of another model's heads" ;;
     highlight_photos) echo "Highlight layers of photos" ;;
+    highlight_people) echo "Finetuning on photos of people" ;;
     highlight_net) echo "What the highlight network costs" ;;
     robustness) echo "Many kinds of photo" ;;
     direction) echo "Known light directions on real faces" ;;
@@ -62,6 +66,7 @@ command_of() {
   case $1 in
     highlight) echo "BUILD/bin/faceprobe eval highlight --data FACES --weights net=models/highlight.safetensors" ;;
     highlight_makehuman) echo "bench/makehuman.sh --data DIR" ;;
+    highlight_people) echo "bench/people.sh --data DIR --faces FACES --training TRAINING" ;;
     speed) echo "bench/speed.sh" ;;
     synth_speed) echo "BUILD/bin/bench_synth_speed" ;;
     synth_rate) echo "bench/synth_rate.sh --data DIR" ;;
@@ -73,6 +78,7 @@ run_section() {
   case $1 in
     highlight) "$build/bin/faceprobe" eval highlight --data "$faces" --weights net="$root/models/highlight.safetensors" ;;
     highlight_makehuman) "$root/bench/makehuman.sh" --data "$data" "$build" ;;
+    highlight_people) "$root/bench/people.sh" --data "$data" --faces "$faces" --training "$training" "$build" ;;
     speed) "$root/bench/speed.sh" ;;
     synth_speed) "$build/bin/bench_synth_speed" ;;
     synth_rate) "$root/bench/synth_rate.sh" --data "$data" ;;
@@ -105,6 +111,10 @@ for section in "${sections[@]}"; do
     echo "results: highlight is left as it is; --faces names the synthetic faces to measure on." >&2
     continue
   fi
+  if [ "$section" = highlight_people ] && { [ -z "$faces" ] || [ -z "$training" ]; }; then
+    echo "results: highlight_people is left as it is; --faces and --training name the synthetic faces of docs/training.md." >&2
+    continue
+  fi
   echo "results: $section" >&2
   code=0
   run_section "$section" >"$work/output" || code=$?
@@ -118,7 +128,8 @@ for section in "${sections[@]}"; do
   {
     printf '## %s\n\n`%s`, on %s.\n\n' "$(title_of "$section")" "$(command_of "$section")" "$(machine)"
     # Nobody's folders are published.
-    sed -e "s|$data|DIR|g" -e "s|$build|BUILD|g" ${faces:+-e "s|$faces|FACES|g"} -e "s|$root/||g" "$work/output"
+    sed -e "s|$data|DIR|g" -e "s|$build|BUILD|g" ${faces:+-e "s|$faces|FACES|g"} ${training:+-e "s|$training|TRAINING|g"} \
+      -e "s|$root/||g" "$work/output"
   } | cat -s >"$work/$section"
 done
 
