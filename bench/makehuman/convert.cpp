@@ -28,13 +28,22 @@ Layers read_layers(const std::filesystem::path& path) {
   const Image reflectance = file.pass("GlossCol", "RGB");
   const Image index = file.pass("IndexMA", "X");
   layers.skin = ByteImage(index.width(), index.height(), 1);
+  for (std::size_t i = 0; i < index.pixel_count(); ++i) layers.skin.data()[i] = index.data()[i] > 0.99F ? 1 : 0;
   for (std::size_t i = 0; i < layers.highlight.values().size(); ++i) {
     float& highlight = layers.highlight.data()[i];
     float& rest = layers.diffuse.data()[i];
-    highlight = std::clamp((highlight + indirect.data()[i]) * reflectance.data()[i], 0.0F, std::max(0.0F, rest));
+    float& albedo = layers.albedo.data()[i];
+    const float mirrored = (highlight + indirect.data()[i]) * reflectance.data()[i];
+    // Cycles divides by what a pixel's samples reflect; where some have nothing to, its passes are no numbers. Such pixels do not count.
+    if (!std::isfinite(mirrored + rest + albedo)) {
+      layers.skin.data()[i / 3] = 0;
+      highlight = albedo = 0;
+      if (!std::isfinite(rest)) rest = 0;
+      continue;
+    }
+    highlight = std::clamp(mirrored, 0.0F, std::max(0.0F, rest));
     rest -= highlight;
   }
-  for (std::size_t i = 0; i < index.pixel_count(); ++i) layers.skin.data()[i] = index.data()[i] > 0.99F ? 1 : 0;
   return layers;
 }
 
