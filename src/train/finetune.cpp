@@ -94,11 +94,12 @@ std::optional<PersonPhotos> group_of(const PersonSet& person, const std::vector<
 class Finetuning {
  public:
   Finetuning(const FinetuneRun& run, const FinetuneHooks& hooks)
-      : run_(run), hooks_(hooks), model_(model_of(run.start)), multiple_(multiple_of(model_)),
+      : run_(run), hooks_(hooks), model_(model_of(run.start)), before_(model_of(run.start)),
+        multiple_(multiple_of(model_)),
         optimizer_(model_.module->parameters(),
                    torch::optim::AdamWOptions(run.config.learning_rate).betas({0.9, 0.99}).weight_decay(0)) {
     split_people();
-    if (run.config.mode == "paper") loss_ = {.rank1 = false, .blur_sigma_px = 0, .guard_weight = 0};
+    if (run.config.mode == "paper") loss_ = {.rank1 = false, .blur_sigma_px = 0, .guard_weight = 0, .energy_weight = 0};
     if (run.config.synthetic_batch > 0) {
       faces_.emplace(run.synthetic);
       faces_config_.batch = run.config.synthetic_batch;
@@ -171,6 +172,18 @@ class Finetuning {
     return used;
   }
 
+  // What the network took off these photos before it was finetuned.
+  std::vector<double> energies_before(const PersonSet& person, const std::vector<int>& chosen,
+                                      const PersonPhotos& group) const {
+    const torch::NoGradGuard no_gradients;
+    std::vector<Image> layers;
+    for (const int number : chosen) {
+      const auto i = static_cast<std::size_t>(number);
+      layers.push_back(layer_of(show(before_, *person.photos[i], person.masks[i], multiple_), *person.photos[i]));
+    }
+    return group.loss(layers).energies;
+  }
+
   bool add_people(std::int64_t step, FinetuneRow& sum) {
     Random random({run_.config.seed, 0xF17E, static_cast<std::uint64_t>(step)});
     const PersonSet& person = *trained_[static_cast<std::size_t>(random.below(static_cast<int>(trained_.size())))];
@@ -184,7 +197,7 @@ class Finetuning {
       shown.push_back(show(model_, *person.photos[i], person.masks[i], multiple_));
       layers.push_back(layer_of(shown.back(), *person.photos[i]));
     }
-    const PersonLoss loss = group->loss(layers);
+    const PersonLoss loss = group->loss(layers, energies_before(person, chosen, *group));
     for (std::size_t k = 0; k < shown.size(); ++k) {
       shown[k].highlight.backward(run_.config.weight * padded_gradient(loss.by_highlight[k], shown[k].highlight));
     }
@@ -258,6 +271,7 @@ class Finetuning {
   const FinetuneRun& run_;
   const FinetuneHooks& hooks_;
   Model model_;
+  Model before_;
   int multiple_;
   torch::optim::AdamW optimizer_;
   PersonLossOptions loss_;

@@ -3,11 +3,14 @@
 #include "train/finetune_guards.h"
 #include "train/low_rank.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 namespace faceprobe::train {
 namespace {
+
+constexpr double kLeastEnergy = 1e-3;  // a photo without highlights does not forbid them
 
 // Where a skin pixel of the square is seen, unclipped, by every photo.
 Image common_skin(const std::vector<PersonPhoto>& photos, const ByteImage& regions) {
@@ -41,6 +44,7 @@ void check(const std::vector<PersonPhoto>& photos, const ByteImage& regions) {
 
 std::string PersonLossOptions::validate() const {
   if (!(blur_sigma_px >= 0 && blur_sigma_px <= 32)) return "blur_sigma_px must be 0 to 32.";
+  if (!(energy_weight >= 0 && energy_weight <= 100)) return "energy_weight must be 0 to 100.";
   if (!(guard_weight >= 0 && guard_weight <= 100)) return "guard_weight must be 0 to 100.";
   return {};
 }
@@ -54,8 +58,10 @@ PersonPhotos::PersonPhotos(std::vector<PersonPhoto> photos, const ByteImage& reg
   for (const PersonPhoto& photo : photos_) flat_.push_back(matrix_from_picture(sample(photo.linear, photo.warp)));
 }
 
-PersonLoss PersonPhotos::loss(std::span<const Image> highlights) const {
+PersonLoss PersonPhotos::loss(std::span<const Image> highlights, std::span<const double> trusted_energies) const {
   if (highlights.size() != photos_.size()) throw std::invalid_argument("One highlight layer per photo is wanted.");
+  if (!trusted_energies.empty() && trusted_energies.size() != photos_.size())
+    throw std::invalid_argument("One trusted energy per photo is wanted, or none.");
   std::vector<Eigen::MatrixX3d> flat_highlight;
   Eigen::MatrixXd rows(static_cast<Eigen::Index>(photos_.size()), 2 * chromaticity_->pixels());
   for (std::size_t k = 0; k < photos_.size(); ++k) {
@@ -69,6 +75,7 @@ PersonLoss PersonPhotos::loss(std::span<const Image> highlights) const {
   const Eigen::Map<const Eigen::VectorXf> weight(weight_.data(), static_cast<Eigen::Index>(weight_.pixel_count()));
   const Eigen::VectorXd mask = weight.cast<double>();
 
+  const auto photo_count = static_cast<double>(photos_.size());
   PersonLoss out;
   out.residual = low_rank.value;
   for (std::size_t k = 0; k < photos_.size(); ++k) {
@@ -82,7 +89,16 @@ PersonLoss PersonPhotos::loss(std::span<const Image> highlights) const {
         by_flat += options_.guard_weight * guard.gradient;
       }
     }
-    out.energy += mask.dot(flat_highlight[k].rowwise().mean()) / pixels / static_cast<double>(photos_.size());
+    const double energy = mask.dot(flat_highlight[k].rowwise().mean()) / pixels;
+    out.energies.push_back(energy);
+    out.energy += energy / photo_count;
+    if (!trusted_energies.empty() && options_.energy_weight > 0) {
+      const double trusted = std::max(trusted_energies[k], kLeastEnergy);
+      const double excess = energy / trusted - 1;
+      out.kept += options_.energy_weight * excess * excess / photo_count;
+      const double slope = 2 * options_.energy_weight * excess / trusted / photo_count;
+      by_flat.colwise() += slope / (3 * pixels) * mask;
+    }
     out.by_highlight.push_back(
         scatter(picture_from_matrix(by_flat, photos_[k].warp.size_px, photos_[k].warp.size_px), photos_[k].warp));
   }

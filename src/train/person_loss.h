@@ -30,6 +30,8 @@ struct PersonLossOptions {
   // Of the chromaticity, in the square: what landmarks misplace is not to look like a highlight. The paper has none.
   float blur_sigma_px = 2.5F;
   double guard_weight = 0.1;  // of each of the two guards of train/finetune_guards.h that one photo allows; 0 = none
+  // Of the mean over photos of (energy / trusted energy - 1)^2: the shortest way to one chromaticity is a diffuse layer that fades.
+  double energy_weight = 0.5;
 
   std::string validate() const;  // empty when usable
 };
@@ -39,7 +41,9 @@ struct PersonLoss {
   double guards = 0;    // sum over the photos, weighted
   double energy =
       0;  // mean over photos and pixels of the highlight's mean channel, in the square: what must not run away
-  std::vector<Image> by_highlight;  // of residual + guards; the size of each crop
+  std::vector<double> energies;     // of each photo
+  double kept = 0;                  // penalty of energies that are not the trusted ones, weighted
+  std::vector<Image> by_highlight;  // of residual + guards + kept; the size of each crop
 };
 
 class PersonPhotos {
@@ -51,7 +55,8 @@ class PersonPhotos {
   // Skin that takes part, in pixels of the square.
   Eigen::Index pixels() const { return chromaticity_->pixels(); }
   // Throws std::invalid_argument when a layer is not the size of its photo.
-  PersonLoss loss(std::span<const Image> highlights) const;
+  // `trusted_energies`: those of layers that are known to be about right, such as the network's before finetuning; empty = none.
+  PersonLoss loss(std::span<const Image> highlights, std::span<const double> trusted_energies = {}) const;
 
  private:
   std::vector<PersonPhoto> photos_;

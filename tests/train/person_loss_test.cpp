@@ -31,6 +31,19 @@ TEST(PersonLoss, IsSmallForTheTrueLayersAndLargeForNone) {
   EXPECT_GT(right.energy, 0.005);
 }
 
+TEST(PersonLoss, KeepsTheEnergyThatIsTrusted) {
+  const Person person = make_person();
+  const PersonPhotos photos(person.photos, person.regions, {.energy_weight = 0.4});
+  const PersonLoss right = photos.loss(person.highlights);
+  EXPECT_EQ(right.kept, 0);  // nothing to compare with
+  EXPECT_EQ(photos.loss(person.highlights, right.energies).kept, 0);
+  std::vector<Image> halves = person.highlights;
+  for (Image& layer : halves)
+    for (float& value : layer.values()) value *= 0.5F;
+  EXPECT_NEAR(photos.loss(halves, right.energies).kept, 0.4 * 0.25, 1e-6);  // layers are floats
+  EXPECT_NEAR(photos.loss(halves, right.energies).residual, photos.loss(halves).residual, 1e-12);
+}
+
 // Along random directions in all layers at once, against central differences.
 TEST(PersonLoss, GradientAgainstDifferences) {
   const Person person = make_person();
@@ -39,7 +52,8 @@ TEST(PersonLoss, GradientAgainstDifferences) {
     std::vector<Image> at = person.highlights;
     for (Image& layer : at)
       for (float& value : layer.values()) value *= 0.5F;
-    const PersonLoss here = photos.loss(at);
+    const std::vector<double> trusted(at.size(), 0.02);
+    const PersonLoss here = photos.loss(at, trusted);
     Random random({5});
     for (int trial = 0; trial < 3; ++trial) {
       std::vector<Image> ahead = at;
@@ -56,9 +70,9 @@ TEST(PersonLoss, GradientAgainstDifferences) {
           expected += stepped * static_cast<double>(here.by_highlight[k].data()[i]);
         }
       }
-      const PersonLoss a = photos.loss(ahead);
-      const PersonLoss b = photos.loss(behind);
-      const double found = 0.5 * (a.residual + a.guards - b.residual - b.guards);
+      const PersonLoss a = photos.loss(ahead, trusted);
+      const PersonLoss b = photos.loss(behind, trusted);
+      const double found = 0.5 * (a.residual + a.guards + a.kept - b.residual - b.guards - b.kept);
       // Gradients come back as floats, and the loss is curved within the step.
       EXPECT_NEAR(found, expected, 2e-3 * std::abs(expected) + 1e-8);
     }
