@@ -23,7 +23,7 @@ done
 start=$root/models/highlight.safetensors
 work=$build/people
 "$build/bin/faceprobe" finetune --people "$data/real/finetune" --start "$start" --data "$training" -o "$work" \
-  --steps 600 --weight 30
+  --steps 300 --weight 30
 "$build/bin/faceprobe" eval highlight --data "$faces" --weights pretrained="$start" --weights finetuned="$work/weights.safetensors" \
   --samples 100 >"$work/eval.md"
 printf '\nOn synthetic faces:\n\n'
