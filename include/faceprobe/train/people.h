@@ -19,10 +19,10 @@ namespace faceprobe::train {
 struct PersonPhoto;  // train/person_loss.h
 
 struct PeopleOptions {
-  int crop_px = 128;          // long side of the crops, as the network's training
-  int square_px = 96;         // of the square in which photos are compared
-  int least_photos = 4;       // people with fewer are left out
-  int most_photos = 12;       // of one person
+  int crop_px = 128;     // long side of the crops, as the network's training
+  int square_px = 96;    // of the square in which photos are compared
+  int least_photos = 4;  // people with fewer are left out
+  int most_photos = 12;  // of one person
   // Error of the rigid mean face per width of the face, at most: a wide smile or an open mouth has more.
   double max_expression = 0.04;
   bool match_colours = true;  // by histogram transfer, as the paper does
