@@ -26,8 +26,8 @@ struct PeopleOptions {
   // Error of the rigid mean face per width of the face, at most: a wide smile or an open mouth has more.
   double max_expression = 0.04;
   bool match_colours = true;  // by histogram transfer, as the paper does
-  bool calibrate =
-      false;  // each photo by the response curve its skin tells of (train/radiometric.h); sRGB where it tells none
+  // Each photo is decoded by the response curve its skin tells of (train/radiometric.h), as sRGB where it tells of none.
+  bool calibrate = false;
   int threads = 0;
 
   std::string validate() const;  // empty when usable
@@ -43,8 +43,8 @@ struct PersonSet {
 };
 
 // Every folder at or below `folder` that holds photos is a person, named by its path from there. Folders that cannot be read throw
-// Error(kInput); photos that cannot are left out with the reason. `progress`: a sentence for every
-// photo left out and for every person.
+// Error(kInput); photos that cannot are left out with the reason. `progress`: a sentence for
+// every photo left out and for every person.
 std::vector<PersonSet> load_people(const std::filesystem::path& folder, const PeopleOptions& options,
                                    const std::function<void(const std::string&)>& progress = {});
 
