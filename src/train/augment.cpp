@@ -2,6 +2,7 @@
 
 #include "faceprobe/core/color.h"
 #include "faceprobe/core/mirror.h"
+#include "faceprobe/core/region.h"
 #include "faceprobe/synth/photo_layers.h"
 #include "train/augment_view.h"
 
@@ -21,6 +22,8 @@ void take_colour(TrainingPicture& picture) {
     std::uint8_t* clip = picture.clip.data() + 3 * i;
     std::fill_n(clip, 3, static_cast<std::uint8_t>(clip[0] & clip[1] & clip[2]));
   }
+  // How much of a grey photo's tone is the light's colour cannot be seen.
+  std::fill(picture.shading.values().begin(), picture.shading.values().end(), 0.0F);
 }
 
 // A plain matt ellipse over part of the picture.
@@ -47,8 +50,20 @@ void put_before(TrainingPicture& picture, Random& random) {
         picture.clip(x, y, static_cast<int>(c)) = 0;
       }
       picture.skin(x, y) = 0;
+      if (picture.has_surface()) {
+        picture.region(x, y) = static_cast<std::uint8_t>(Region::kObject);
+        std::fill_n(picture.shading.pixel(x, y), 3, 0.0F);
+      }
     }
   }
+}
+
+void mirror_surface(TrainingPicture& picture) {
+  mirror(picture.normal);
+  for (std::size_t i = 0; i < picture.normal.values().size(); i += 3) picture.normal.data()[i] *= -1;
+  mirror(picture.depth_m);
+  mirror(picture.shading);
+  mirror(picture.region);
 }
 
 // What is missing at the left, top, right and bottom, of the whole: each side is cut in half of the pictures.
@@ -62,12 +77,19 @@ std::array<double, 4> draw_cuts(Random& random) {
   return cuts;
 }
 
-TrainingPicture picture_of(const synth::ShardReader& reader, int number, float mask_scale) {
-  const synth::Sample sample = reader.copy_light(number);
-  const synth::ViewLayers view = reader.copy_faces(number);
+TrainingPicture picture_of(const synth::ShardReader& reader, int number, float mask_scale, bool surface) {
+  synth::Sample sample = surface ? reader.copy_sample(number) : reader.copy_light(number);
+  synth::ViewLayers view = surface ? reader.copy_view(number) : reader.copy_faces(number);
   synth::PhotoLayers layers = synth::photo_layers(sample);
-  TrainingPicture picture{std::move(layers.linear), ByteImage(sample.clip.width(), sample.clip.height(), 3),
-                          synth::face_mask(view, mask_scale), std::move(layers.highlight), synth::skin_mask(view)};
+  TrainingPicture picture{.linear = std::move(layers.linear),
+                          .clip = ByteImage(sample.clip.width(), sample.clip.height(), 3),
+                          .mask = synth::face_mask(view, mask_scale),
+                          .highlight = std::move(layers.highlight),
+                          .skin = synth::skin_mask(view),
+                          .normal = std::move(view.normal),
+                          .depth_m = std::move(view.depth_m),
+                          .shading = std::move(sample.shading),
+                          .region = surface ? std::move(view.region) : ByteImage()};
   for (std::size_t i = 0; i < sample.clip.pixel_count(); ++i) {
     for (std::size_t c = 0; c < 3; ++c)
       picture.clip.data()[3 * i + c] = static_cast<std::uint8_t>(sample.clip.data()[i] >> c & 1U);
@@ -87,6 +109,7 @@ void apply_gain(const std::array<float, 3>& gain, TrainingPicture& picture) {
     const float diffuse = g * (light - highlight);
     light *= g;
     highlight *= g;
+    if (picture.has_surface()) picture.shading.data()[i] *= gain[i % 3];
     if (light >= 1.0F) {
       light = 1.0F;
       highlight = 1.0F - std::min(1.0F, diffuse);
@@ -95,7 +118,9 @@ void apply_gain(const std::array<float, 3>& gain, TrainingPicture& picture) {
   }
 }
 
-TrainingPicture plain_picture(const synth::ShardReader& reader, int sample) { return picture_of(reader, sample, 1.0F); }
+TrainingPicture plain_picture(const synth::ShardReader& reader, int sample, bool surface) {
+  return picture_of(reader, sample, 1.0F, surface);
+}
 
 TrainingPicture draw_picture(const synth::ShardReader& reader, int sample, const TrainConfig& config, Random& random) {
   const AugmentConfig& augment = config.augment;
@@ -116,7 +141,7 @@ TrainingPicture draw_picture(const synth::ShardReader& reader, int sample, const
   const bool cut = random.chance(augment.cut_share);
   const std::array<double, 4> cuts = draw_cuts(random);
 
-  TrainingPicture picture = picture_of(reader, sample, scale);
+  TrainingPicture picture = picture_of(reader, sample, scale, config.architecture == "face");
   const double width = picture.linear.width();
   const double height = picture.linear.height();
   if (another_zoom) picture = zoomed(picture, zoom, centre_x * width, centre_y * height);
@@ -137,6 +162,7 @@ TrainingPicture draw_picture(const synth::ShardReader& reader, int sample, const
     mirror(picture.mask);
     mirror(picture.highlight);
     mirror(picture.skin);
+    if (picture.has_surface()) mirror_surface(picture);
   }
   return picture;
 }

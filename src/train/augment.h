@@ -14,9 +14,16 @@ struct TrainingPicture {
   ByteImage mask;   // 1 channel
   Image highlight;  // 3 channels
   ByteImage skin;   // 1 channel
+  // For the face network; empty for the others.
+  Image normal;      // 3 channels
+  Image depth_m;     // 1 channel
+  Image shading;     // 3 channels; 0 where it is not known
+  ByteImage region;  // 1 channel, Region
+
+  bool has_surface() const { return !region.empty(); }
 };
 
-TrainingPicture plain_picture(const synth::ShardReader& reader, int sample);
+TrainingPicture plain_picture(const synth::ShardReader& reader, int sample, bool surface = false);
 // With the changes of `config.augment`. What the light does to both layers is done to both: gains scale them alike, a channel that
 // passes white is clipped and marked, a thing in front has no highlight that is known, so it is matt.
 TrainingPicture draw_picture(const synth::ShardReader& reader, int sample, const TrainConfig& config, Random& random);

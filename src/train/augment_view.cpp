@@ -1,5 +1,7 @@
 #include "train/augment_view.h"
 
+#include "faceprobe/core/region.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -27,6 +29,9 @@ void put_outside(TrainingPicture& picture, int x, int y) {
   std::fill_n(picture.highlight.pixel(x, y), 3, 0.0F);
   std::fill_n(picture.clip.pixel(x, y), 3, std::uint8_t{1});
   picture.skin(x, y) = 0;
+  if (!picture.has_surface()) return;
+  picture.region(x, y) = static_cast<std::uint8_t>(Region::kNone);
+  std::fill_n(picture.shading.pixel(x, y), 3, 0.0F);
 }
 
 }  // namespace
@@ -35,7 +40,12 @@ TrainingPicture zoomed(const TrainingPicture& picture, double zoom, double centr
   const int width = picture.linear.width();
   const int height = picture.linear.height();
   TrainingPicture out{Image(width, height, 3), ByteImage(width, height, 3), ByteImage(width, height, 1),
-                      Image(width, height, 3), ByteImage(width, height, 1)};
+                      Image(width, height, 3), ByteImage(width, height, 1), {}, {}, {}, {}};
+  if (picture.has_surface()) {
+    out.normal = out.shading = Image(width, height, 3);
+    out.depth_m = Image(width, height, 1);
+    out.region = ByteImage(width, height, 1);
+  }
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const double from_x = centre_x + (x + 0.5 - centre_x) / zoom;
@@ -56,6 +66,11 @@ TrainingPicture zoomed(const TrainingPicture& picture, double zoom, double centr
       }
       std::copy_n(picture.clip.pixel(ix, iy), 3, out.clip.pixel(x, y));
       out.skin(x, y) = picture.skin(ix, iy);
+      if (!picture.has_surface()) continue;
+      out.region(x, y) = picture.region(ix, iy);
+      out.depth_m(x, y) = picture.depth_m(ix, iy);
+      std::copy_n(picture.shading.pixel(ix, iy), 3, out.shading.pixel(x, y));
+      for (int c = 0; c < 3; ++c) out.normal(x, y, c) = between(picture.normal, from_x, from_y, c);
     }
   }
   return out;

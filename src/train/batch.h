@@ -14,6 +14,18 @@
 
 namespace faceprobe::train {
 
+// What the face network is to find beside the highlights; undefined tensors for the others.
+struct SurfaceBatch {
+  torch::Tensor normal;   // N x 3 x H x W, camera frame; of any length
+  torch::Tensor depth_m;  // N x 1 x H x W
+  torch::Tensor weight;   // N x 1 x H x W: of the normal and the depth there
+  torch::Tensor region;   // N x 1 x H x W: the Region's number
+  torch::Tensor shading;  // N x 3 x H x W
+  torch::Tensor lit;      // N x 1 x H x W of 0 and 1: where the shading is known and can be seen
+
+  bool there() const { return normal.defined(); }
+};
+
 // N pictures of H x W. Float, channels-last, on the processor.
 struct Batch {
   torch::Tensor linear;     // N x 3 x H x W
@@ -21,10 +33,11 @@ struct Batch {
   torch::Tensor mask;       // N x 1 x H x W of 0 and 1
   torch::Tensor highlight;  // N x 3 x H x W
   torch::Tensor skin;       // N x 1 x H x W of 0 and 1: where errors count whole
+  SurfaceBatch surface;     // for the face network alone
 };
 
 // Samples as they are, for validation.
-Batch plain_batch(const synth::ShardReader& reader, const std::vector<int>& samples);
+Batch plain_batch(const synth::ShardReader& reader, const std::vector<int>& samples, bool surface = false);
 
 // The samples of a step: a new order of all of them in each round through the data.
 std::vector<int> samples_of_step(std::uint64_t seed, std::int64_t step, int batch, int sample_count);

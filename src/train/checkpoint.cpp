@@ -6,7 +6,7 @@
 namespace faceprobe::train {
 namespace {
 
-constexpr std::int64_t kRowNumbers = 9;
+constexpr std::int64_t kRowNumbers = 13;
 
 torch::Tensor packed(const std::vector<TrainRow>& rows) {
   torch::Tensor table = torch::zeros({static_cast<std::int64_t>(rows.size()), kRowNumbers}, torch::kDouble);
@@ -21,7 +21,11 @@ torch::Tensor packed(const std::vector<TrainRow>& rows) {
                                          row.validation.skin,
                                          row.validation.whole,
                                          row.validation.black_skin,
-                                         row.validation.black_whole};
+                                         row.validation.black_whole,
+                                         row.validation.normal_deg,
+                                         row.validation.region_share,
+                                         row.validation.shading,
+                                         row.validation.colour_deg};
     for (std::int64_t k = 0; k < kRowNumbers; ++k) to[i][k] = numbers[k];
   }
   return table;
@@ -37,7 +41,8 @@ std::vector<TrainRow> unpacked(const torch::Tensor& table) {
     row.learning_rate = from[i][2];
     row.samples_per_second = from[i][3];
     row.validated = from[i][4] != 0;
-    row.validation = {from[i][5], from[i][6], from[i][7], from[i][8]};
+    row.validation = {from[i][5], from[i][6], from[i][7], from[i][8],
+                      from[i][9], from[i][10], from[i][11], from[i][12]};
     rows.push_back(row);
   }
   return rows;

@@ -48,6 +48,12 @@ void each_field(Config& config, const Visit& visit) {
   visit("loss_rms", config.loss.rms, kWeight);
   visit("loss_similarity", config.loss.similarity, kWeight);
   visit("loss_elsewhere", config.loss.elsewhere, kShare);
+  visit("loss_normal", config.loss.normal, kWeight);
+  visit("loss_spread", config.loss.spread, kWeight);
+  visit("loss_depth", config.loss.depth, kWeight);
+  visit("loss_region", config.loss.region, kWeight);
+  visit("loss_shading", config.loss.shading, kWeight);
+  visit("loss_colour", config.loss.colour, kWeight);
 }
 
 [[noreturn]] void refuse(const std::string& what) { throw Error(ExitCode::kUsage, "The training config " + what); }
@@ -75,8 +81,8 @@ std::string TrainConfig::validate() const {
     }
   });
   if (!problem.empty()) return problem;
-  if (architecture != "unet" && architecture != "mscr") {
-    return "The training config's architecture is \"" + architecture + "\"; there are unet and mscr.";
+  if (architecture != "unet" && architecture != "face" && architecture != "mscr") {
+    return "The training config's architecture is \"" + architecture + "\"; there are unet, face and mscr.";
   }
   return {};
 }

@@ -3,9 +3,13 @@
 #include "faceprobe/core/error.h"
 #include "faceprobe/net/model_file.h"
 
+#include "net/face_outputs.h"
+#include "net/head.h"
 #include "net/torch/highlight_head.h"
 #include "net/torch/mscr.h"
 #include "net/torch/unet.h"
+#include "train/face_loss.h"
+#include "train/loss.h"
 
 #include <nlohmann/json.hpp>
 
@@ -28,18 +32,34 @@ auto read_options(const Read& read, const std::string& text) {
   }
 }
 
-Model unet_model(const std::string& given) {
-  const auto options = read_options(net::unet_options_from_json, merged(net::options_json(net::UNetOptions{}), given));
+torch::Tensor highlight_of(const torch::Tensor& raw, const Batch& batch) {
+  return net::highlight_from_raw(raw.narrow(1, 0, net::kRawChannels).to(torch::kFloat), batch.linear);
+}
+
+// `surface`: with the outputs of the face network.
+Model unet_model(const std::string& given, bool surface) {
+  net::UNetOptions defaults;
+  if (surface) defaults.out_channels = net::FaceOutputs::kCount;
+  const auto options = read_options(net::unet_options_from_json, merged(net::options_json(defaults), given));
   net::UNet unet(options);
   unet->to(torch::kFloat, false);
-  const auto forward = [unet](const Batch& batch) mutable {
-    const torch::Tensor raw = unet->forward(net::prepare_input(batch.linear, batch.clip, batch.mask));
-    return net::highlight_from_raw(raw.to(torch::kFloat), batch.linear);
+  const auto raw_of = [unet](const Batch& batch) mutable {
+    return unet->forward(net::prepare_input(batch.linear, batch.clip, batch.mask));
   };
-  return {unet.ptr(),
-          forward,
-          forward,
-          {{net::kArchitectureKey, net::kUNetArchitecture}, {net::kOptionsKey, net::options_json(options)}}};
+  Model model;
+  model.module = unet.ptr();
+  model.forward = [raw_of](const Batch& batch) mutable { return highlight_of(raw_of(batch), batch); };
+  model.highlight = model.forward;
+  model.metadata = {{net::kArchitectureKey, surface ? net::kFaceArchitecture : net::kUNetArchitecture},
+                    {net::kOptionsKey, net::options_json(options)}};
+  model.loss = [raw_of, surface](const Batch& batch, const LossConfig& config) mutable {
+    const torch::Tensor raw = raw_of(batch);
+    const torch::Tensor loss = highlight_loss(highlight_of(raw, batch), batch, config);
+    return surface ? loss + surface_loss(net::surface_from_raw(raw), batch.surface, config) : loss;
+  };
+  if (surface)
+    model.surface = [raw_of](const Batch& batch) mutable { return net::surface_from_raw(raw_of(batch)); };
+  return model;
 }
 
 Model mscr_model(const std::string& given) {
@@ -48,19 +68,24 @@ Model mscr_model(const std::string& given) {
   auto forward = [mscr, options](const Batch& batch) mutable {
     return mscr->forward(net::mscr_input(batch.linear, options));
   };
-  auto bounded = [forward](const Batch& batch) mutable {
+  Model model;
+  model.module = mscr.ptr();
+  model.forward = forward;
+  model.highlight = [forward](const Batch& batch) mutable {
     return torch::minimum(forward(batch).clamp_min(0), batch.linear);
   };
-  return {mscr.ptr(),
-          forward,
-          bounded,
-          {{net::kArchitectureKey, net::kMscrArchitecture}, {net::kOptionsKey, net::options_json(options)}}};
+  model.loss = [forward](const Batch& batch, const LossConfig&) mutable { return squared_loss(forward(batch), batch); };
+  model.metadata = {{net::kArchitectureKey, net::kMscrArchitecture}, {net::kOptionsKey, net::options_json(options)}};
+  return model;
 }
 
 }  // namespace
 
+bool finds_surface(const TrainConfig& config) { return config.architecture == net::kFaceArchitecture; }
+
 Model make_model(const TrainConfig& config) {
-  return config.architecture == "mscr" ? mscr_model(config.network) : unet_model(config.network);
+  if (config.architecture == net::kMscrArchitecture) return mscr_model(config.network);
+  return unet_model(config.network, finds_surface(config));
 }
 
 }  // namespace faceprobe::train

@@ -2,6 +2,8 @@
 // Internal: the network that is being trained, behind one call whatever its architecture.
 
 #include "faceprobe/train/config.h"
+
+#include "net/torch/face_head.h"
 #include "train/batch.h"
 
 #include <torch/torch.h>
@@ -18,8 +20,14 @@ struct Model {
   std::function<torch::Tensor(const Batch&)> forward;
   // For use: within the picture, 0 <= H <= I.
   std::function<torch::Tensor(const Batch&)> highlight;
+  // What a step lowers.
+  std::function<torch::Tensor(const Batch&, const LossConfig&)> loss;
+  // Everything the face network finds but the highlights; empty for the others.
+  std::function<net::FaceSurface(const Batch&)> surface;
   std::map<std::string, std::string> metadata;  // of the weights file
 };
+
+bool finds_surface(const TrainConfig& config);
 
 // Throws Error(kUsage) for options that are not the architecture's own. Weights are drawn from torch's generator.
 Model make_model(const TrainConfig& config);

@@ -6,8 +6,8 @@
 
 #include "net/torch/torch_device.h"
 #include "net/torch/weights.h"
+#include "net/torch/widen.h"
 #include "train/checkpoint.h"
-#include "train/loss.h"
 #include "train/model.h"
 #include "train/schedule.h"
 #include "train/to_device.h"
@@ -43,7 +43,7 @@ class Training {
             model_.module->parameters(),
             torch::optim::AdamWOptions(run.config.learning_rate).betas({0.9, 0.99}).weight_decay(run.config.weight_decay)) {
     if (!run.start.empty()) {
-      net::load_weights(*model_.module, run.start);
+      begin_with(run.start);
       average_ = WeightAverage(*model_.module, run.config.average_decay);
     }
     model_.module->to(device_);
@@ -55,7 +55,7 @@ class Training {
     io::write_file_atomically(run.folder / "config.json", to_json(run.config));
     if (!run.validation_data.empty()) {
       validation_data_.emplace(run.validation_data);
-      validator_.emplace(*validation_data_, run.config.validation_samples, device_);
+      validator_.emplace(*validation_data_, run.config.validation_samples, device_, finds_surface(run.config));
     }
   }
 
@@ -108,6 +108,15 @@ class Training {
     return make_model(config);
   }
 
+  void begin_with(const std::filesystem::path& weights) {
+    if (const auto unet = std::dynamic_pointer_cast<net::UNetImpl>(model_.module)) {
+      net::UNet wide(unet);
+      net::load_widened(wide, weights);
+    } else {
+      net::load_weights(*model_.module, weights);
+    }
+  }
+
   std::filesystem::path checkpoint_path() const { return run_.folder / "checkpoint.pt"; }
   std::filesystem::path weights_path() const { return run_.folder / "weights.safetensors"; }
 
@@ -119,9 +128,7 @@ class Training {
     for (torch::optim::OptimizerParamGroup& group : optimizer_.param_groups())
       static_cast<torch::optim::AdamWOptions&>(group.options()).lr(rate);
     optimizer_.zero_grad();
-    const torch::Tensor highlight = model_.forward(batch);
-    torch::Tensor loss =
-        config.architecture == "mscr" ? squared_loss(highlight, batch) : highlight_loss(highlight, batch, config.loss);
+    const torch::Tensor loss = model_.loss(batch, config.loss);
     loss.backward();
     torch::nn::utils::clip_grad_norm_(model_.module->parameters(), config.largest_gradient);
     optimizer_.step();

@@ -1,6 +1,7 @@
 #include "train/validate.h"
 
 #include "faceprobe/core/color.h"
+#include "train/face_loss.h"
 #include "train/to_device.h"
 
 #include <algorithm>
@@ -19,6 +20,30 @@ torch::Tensor rms(const torch::Tensor& error, const torch::Tensor& weight) {
   return (sum / count.clamp_min(1)).sqrt();
 }
 
+// Mean over each picture's pixels that count, summed over pictures.
+double mean_of(const torch::Tensor& values, const torch::Tensor& weight) {
+  const torch::Tensor sum = (values * weight).sum({1, 2, 3});
+  return (sum / weight.sum({1, 2, 3}).clamp_min(1)).sum().item<double>();
+}
+
+torch::Tensor degrees_between(const torch::Tensor& a, const torch::Tensor& b) {
+  return 2 * (0.5 * chord(a, b)).clamp_max(1).asin() * (180 / 3.14159265358979);
+}
+
+void add_surface(const net::FaceSurface& found, const Batch& batch, Validation& sum) {
+  const SurfaceBatch& truth = batch.surface;
+  const torch::Tensor everywhere = torch::ones_like(batch.skin);
+  sum.normal_deg += mean_of(degrees_between(found.normal, truth.normal), batch.skin);
+  const torch::Tensor right = found.region.argmax(1, true) == truth.region.to(torch::kLong);
+  sum.region_share += mean_of(right.to(torch::kFloat), everywhere);
+  const torch::Tensor error = (found.log_level - truth.shading.mean(1, true).clamp_min(1e-4).log()) * truth.lit;
+  const torch::Tensor count = truth.lit.sum({1, 2, 3}).clamp_min(1);
+  const torch::Tensor level = error.sum({1, 2, 3}) / count;
+  const torch::Tensor square = error.square().sum({1, 2, 3}) / count - level.square();
+  sum.shading += square.clamp_min(0).sqrt().sum().item<double>();
+  sum.colour_deg += mean_of(degrees_between(found.colour, truth.shading), truth.lit);
+}
+
 Image picture_of(const torch::Tensor& planes) {
   const torch::Tensor pixels = planes.to(torch::kCPU).permute({1, 2, 0}).contiguous();
   Image image(static_cast<int>(pixels.size(1)), static_cast<int>(pixels.size(0)), 3);
@@ -34,13 +59,13 @@ void paste(const ByteImage& picture, int left, int top, ByteImage& sheet) {
 
 }  // namespace
 
-Validator::Validator(const synth::ShardReader& reader, int count, const torch::Device& device) {
+Validator::Validator(const synth::ShardReader& reader, int count, const torch::Device& device, bool surface) {
   const int taken = std::min(count, reader.sample_count());
   std::vector<int> samples;
   for (int i = 0; i < taken; ++i) {
     samples.push_back(static_cast<int>((static_cast<std::int64_t>(i) * reader.sample_count()) / taken));
     if (static_cast<int>(samples.size()) < kAtOnce && i + 1 < taken) continue;
-    batches_.push_back(to_device(plain_batch(reader, samples), device));
+    batches_.push_back(to_device(plain_batch(reader, samples, surface), device));
     samples.clear();
   }
 }
@@ -57,11 +82,14 @@ Validation Validator::measure(const Model& model) const {
     sum.whole += rms(error, everywhere).sum().item<double>();
     sum.black_skin += rms(batch.highlight, batch.skin).sum().item<double>();
     sum.black_whole += rms(batch.highlight, everywhere).sum().item<double>();
+    if (model.surface) add_surface(model.surface(batch), batch, sum);
     pictures += error.size(0);
   }
   model.module->train();
   const double scale = pictures > 0 ? kCodes / static_cast<double>(pictures) : 0.0;
-  return {scale * sum.skin, scale * sum.whole, scale * sum.black_skin, scale * sum.black_whole};
+  const double share = pictures > 0 ? 1 / static_cast<double>(pictures) : 0.0;
+  return {scale * sum.skin,       scale * sum.whole,        scale * sum.black_skin, scale * sum.black_whole,
+          share * sum.normal_deg, share * sum.region_share, share * sum.shading,    share * sum.colour_deg};
 }
 
 ByteImage Validator::picture(const Model& model, int rows) const {
@@ -74,11 +102,20 @@ ByteImage Validator::picture(const Model& model, int rows) const {
     const Batch& batch = batches_[static_cast<std::size_t>(r * total / rows)];
     const std::int64_t item = r % batch.linear.size(0);
     const torch::Tensor found = model.highlight(batch)[item];
-    const torch::Tensor layers[4] = {batch.linear[item], 2.0 * batch.highlight[item], 2.0 * found,
-                                     batch.linear[item] - found};
-    for (int column = 0; column < 4; ++column) {
-      const ByteImage cell = encode_srgb(picture_of(layers[column]));
-      if (sheet.empty()) sheet = ByteImage(4 * cell.width(), rows * cell.height(), 3);
+    std::vector<torch::Tensor> layers = {batch.linear[item], 2.0 * batch.highlight[item], 2.0 * found,
+                                         batch.linear[item] - found};
+    if (model.surface) {
+      const net::FaceSurface surface = model.surface(batch);
+      const torch::Tensor skin = batch.skin[item];
+      const torch::Tensor light = surface.log_level[item].exp() * surface.colour[item];
+      layers.insert(layers.end(), {skin * (0.5 + 0.5 * batch.surface.normal[item]),
+                                   skin * (0.5 + 0.5 * surface.normal[item]), 0.5 * skin * batch.surface.shading[item],
+                                   0.5 * skin * light, skin * (batch.linear[item] - found) / light});
+    }
+    const auto columns = static_cast<int>(layers.size());
+    for (int column = 0; column < columns; ++column) {
+      const ByteImage cell = encode_srgb(picture_of(layers[static_cast<std::size_t>(column)].clamp_min(0)));
+      if (sheet.empty()) sheet = ByteImage(columns * cell.width(), rows * cell.height(), 3);
       paste(cell, column * cell.width(), done * cell.height(), sheet);
     }
     ++done;

@@ -9,9 +9,10 @@ namespace faceprobe::train {
 class Validator {
  public:
   // Takes up to `count` samples, spread evenly over the data set.
-  Validator(const synth::ShardReader& reader, int count, const torch::Device& device);
+  Validator(const synth::ShardReader& reader, int count, const torch::Device& device, bool surface = false);
   Validation measure(const Model& model) const;
-  // Rows of photo, highlight that is known, highlight that was found, what is left; the layers twice as bright as they are.
+  // Rows of photo, highlight that is known, highlight that was found, what is left; the layers twice as bright as they are. Of the face
+  // network, on skin, then the normals that are known and found, the shadings that are known and found, half as bright, and the albedo.
   ByteImage picture(const Model& model, int rows) const;
 
  private:

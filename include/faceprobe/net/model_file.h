@@ -15,10 +15,11 @@ namespace faceprobe::net {
 inline constexpr const char* kArchitectureKey = "architecture";
 inline constexpr const char* kOptionsKey = "options";
 inline constexpr const char* kUNetArchitecture = "unet";
+inline constexpr const char* kFaceArchitecture = "face";
 inline constexpr const char* kMscrArchitecture = "mscr";
 
 struct ModelInfo {
-  std::string architecture;                     // "unet" or "mscr"
+  std::string architecture;                     // "unet", "face" or "mscr"
   std::string options_json;                     // of that network
   std::string sha256;                           // of the file, hex
   std::int64_t parameter_count = 0;             // numbers in all tensors

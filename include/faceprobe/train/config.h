@@ -29,11 +29,19 @@ struct LossConfig {
   double rms = 0;           // weight of each picture's root mean square error: what the benchmark measures
   double similarity = 0;    // weight of one minus the structural similarity
   double elsewhere = 0.25;  // weight of a pixel that is not the face's skin, which has 1
+  // Of the face network's other outputs (architecture "face").
+  double normal = 0.1;    // weight of the normals' error, a chord of the unit sphere
+  double spread = 0.02;   // weight of how well the error that is stated fits the one that is made
+  double depth = 0.01;    // weight of the depth's error, of 5 cm
+  double region = 0.03;   // weight of the regions' cross entropy
+  double shading = 0.1;   // weight of the error of the shading's logarithm
+  double colour = 0.1;    // weight of the error of the light's colour, a chord of the unit sphere
 };
 
 struct TrainConfig {
-  std::string architecture =
-      "unet";  // "unet", or "mscr": the paper's, with its plain L2 loss and no augmentation but the mirror
+  // "unet": highlights alone. "face": the same with normals, depth, regions and shading beside them. "mscr": the paper's, highlights
+  // with its plain L2 loss and no augmentation but the mirror.
+  std::string architecture = "unet";
   std::string network = "{}";  // the architecture's own options, JSON
   int batch = 16;              // samples to a step
   std::int64_t steps = 20000;

@@ -38,6 +38,11 @@ struct Validation {
   double whole = 0;       // on the whole picture
   double black_skin = 0;  // what an empty layer would have
   double black_whole = 0;
+  // Of the face network; 0 for the others.
+  double normal_deg = 0;    // mean angle between normals on the face's skin
+  double region_share = 0;  // of pixels whose region is right
+  double shading = 0;       // root mean square error of the shading's logarithm on skin, its level apart
+  double colour_deg = 0;    // mean angle between the light's colours on skin
 };
 
 struct TrainRow {

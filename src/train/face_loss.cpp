@@ -1,0 +1,62 @@
+#include "train/face_loss.h"
+
+#include "faceprobe/core/region.h"
+#include "net/face_outputs.h"
+
+namespace faceprobe::train {
+namespace {
+
+constexpr double kCorner = 1e-3;  // where an absolute error is rounded off
+
+torch::Tensor smooth_abs(const torch::Tensor& x) { return (x.square() + kCorner * kCorner).sqrt() - kCorner; }
+
+torch::Tensor unit(const torch::Tensor& x) { return x / x.square().sum(1, true).clamp_min(1e-8).sqrt(); }
+
+torch::Tensor weighted_mean(const torch::Tensor& error, const torch::Tensor& weight) {
+  return (error * weight).sum() / (weight.sum() + 1e-6);
+}
+
+// Of each picture.
+torch::Tensor picture_mean(const torch::Tensor& values, const torch::Tensor& weight) {
+  return (values * weight).sum({1, 2, 3}, true) / (weight.sum({1, 2, 3}, true) + 1e-6);
+}
+
+// The stated error as the scale of a two-dimensional Laplace distribution, density exp(-r / b) / (2 pi b^2), whose mean radius is 2 b:
+// the least of r / b + 2 log b is where 2 b is the error to be expected. It does not pull at the normals, or the network would give up
+// where it is unsure.
+torch::Tensor spread_loss(const torch::Tensor& error, const net::FaceSurface& found, const torch::Tensor& weight) {
+  const torch::Tensor scale = found.spread / 2;
+  return weighted_mean(error.detach() / scale + 2 * scale.log(), weight);
+}
+
+torch::Tensor depth_loss(const torch::Tensor& depth, const SurfaceBatch& truth) {
+  const torch::Tensor error = depth - truth.depth_m / net::FaceOutputs::kDepthUnit;
+  return weighted_mean(smooth_abs(error - picture_mean(error, truth.weight)), truth.weight);
+}
+
+// Mostly of the shading's course over the face, a third of its level, which is the exposure over the skin's unknown albedo.
+torch::Tensor shading_loss(const torch::Tensor& log_level, const SurfaceBatch& truth) {
+  constexpr double kOfLevel = 0.3;
+  const torch::Tensor error = (log_level - truth.shading.mean(1, true).clamp_min(1e-4).log()) * truth.lit;
+  const torch::Tensor level = picture_mean(error, truth.lit);
+  return weighted_mean(smooth_abs(error - level), truth.lit) + kOfLevel * smooth_abs(level).mean();
+}
+
+}  // namespace
+
+torch::Tensor chord(const torch::Tensor& a, const torch::Tensor& b) {
+  const torch::Tensor difference = unit(a) - unit(b);
+  return (difference.square().sum(1, true) + kCorner * kCorner).sqrt() - kCorner;
+}
+
+torch::Tensor surface_loss(const net::FaceSurface& found, const SurfaceBatch& truth, const LossConfig& config) {
+  const torch::Tensor error = chord(found.normal, truth.normal);
+  const torch::Tensor names = truth.region.squeeze(1).to(torch::kLong);
+  return config.normal * weighted_mean(error, truth.weight) +
+         config.spread * spread_loss(error, found, truth.weight) + config.depth * depth_loss(found.depth, truth) +
+         config.region * torch::cross_entropy_loss(found.region, names) +
+         config.shading * shading_loss(found.log_level, truth) +
+         config.colour * weighted_mean(chord(found.colour, truth.shading), truth.lit);
+}
+
+}  // namespace faceprobe::train
