@@ -77,7 +77,7 @@ void report(const std::filesystem::path& data, const std::filesystem::path& weig
   for (const bool classical : {false, true}) {
     pipeline::EstimateOptions estimate_options;
     estimate_options.threads = threads;
-    estimate_options.highlight_weights = weights;
+    estimate_options.weights = weights;
     estimate_options.classical.reset();
     if (classical) estimate_options.classical = highlight::Separator::kYang;
     const pipeline::Estimator estimator(estimate_options);

@@ -179,7 +179,7 @@ int main(int argc, char** argv) {
     const fs::path real = fs::path(data) / "real";
     pipeline::EstimateOptions network;
     network.classical.reset();
-    network.highlight_weights = weights;
+    network.weights = weights;
     network.layer_px = 2 * kSquarePx;  // more would alias in the square
     if (sheets) {
       io::create_folder(output);

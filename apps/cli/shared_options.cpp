@@ -20,6 +20,14 @@ int whole_number(const std::string& text, const std::string& what) {
   return value;
 }
 
+template <class Choice>
+Choice one_of(const std::string& text, const char* option, const char* first, Choice first_choice, const char* second,
+              Choice second_choice) {
+  if (text == first) return first_choice;
+  if (text == second) return second_choice;
+  throw Error(ExitCode::kUsage, std::string(option) + " takes " + first + " or " + second + ", found '" + text + "'.");
+}
+
 }  // namespace
 
 void add_inputs(CLI::App& command, SharedOptions& options) {
@@ -47,7 +55,12 @@ void add_face_options(CLI::App& command, SharedOptions& options) {
 
 void add_solver_options(CLI::App& command, SharedOptions& options) {
   command.add_option("--solver", options.solver, "transport, or paper (the published scheme)")->capture_default_str();
-  command.add_option("--geometry", options.geometry, "where normals come from: mesh")->capture_default_str();
+  command.add_option("--geometry", options.geometry, "where normals come from: net (trained), or mesh")
+      ->capture_default_str();
+  command
+      .add_option("--shading", options.shading,
+                  "what splits the diffuse layer: net (trained), or regions (one albedo a region)")
+      ->capture_default_str();
   command.add_option("--iterations", options.iterations, "Richardson-Lucy iterations")->capture_default_str();
   command.add_option("--size", options.size, "width of the environment map, or WIDTHxHEIGHT with WIDTH = 2 HEIGHT")
       ->capture_default_str();
@@ -101,19 +114,18 @@ pipeline::EstimateOptions estimate_options(const SharedOptions& options) {
     throw Error(ExitCode::kUsage, "--landmarks describes one face of one photo, but there are " +
                                       std::to_string(options.inputs.size()) + " photos.");
   }
-  if (options.geometry != "mesh") {
-    throw Error(ExitCode::kUsage, "--geometry takes mesh, found '" + options.geometry + "'.");
-  }
   if (const std::string fault = options.limits.validate(); !fault.empty()) throw Error(ExitCode::kUsage, fault);
   pipeline::EstimateOptions out;
   if (options.separator == "net") {
     out.classical.reset();
-    out.highlight_weights = options.weights;
+    out.weights = options.weights;
   } else {
     out.classical = highlight::separator_from_name(options.separator);
     if (!options.weights.empty())
       throw Error(ExitCode::kUsage, "--weights are the network's; --separator " + options.separator + " takes none.");
   }
+  out.normals = one_of(options.geometry, "--geometry", "net", pipeline::NormalSource::kNet, "mesh", pipeline::NormalSource::kMesh);
+  out.shading = one_of(options.shading, "--shading", "net", pipeline::ShadingSource::kNet, "regions", pipeline::ShadingSource::kRegions);
   out.solve.solver = lighting::solver_from_name(options.solver);
   out.solve.iterations = options.iterations;
   out.map_width = parse_map_width(options.size);

@@ -17,7 +17,8 @@ struct SharedOptions {
   std::string weights;
   std::string solver{lighting::solver_name(pipeline::EstimateOptions{}.solve.solver)};
   std::string landmarks;
-  std::string geometry = "mesh";
+  std::string geometry = "net";
+  std::string shading = "net";
   std::optional<double> focal_px;
   int iterations = pipeline::EstimateOptions{}.solve.iterations;
   std::string size = "256";

@@ -47,6 +47,13 @@ void log_row(const train::TrainProgress& progress) {
 
 int run(Options options) {
   if (!options.config.empty()) options.run.config = train::train_config_from_json(read_text(options.config));
+  train::TrainConfig& config = options.run.config;
+  if (options.config.empty() && options.net == "face") config.architecture = "face";
+  if ((config.architecture == "face") != (options.net == "face")) {
+    throw Error(ExitCode::kUsage, "The training config's architecture is \"" + config.architecture +
+                                      "\", which is not of the network to train, " + options.net +
+                                      ". Name face for \"face\", highlight for the others.");
+  }
   options.run.device = net::device_from_name(options.device);
   std::signal(SIGINT, [](int) { interrupted = true; });
   std::signal(SIGTERM, [](int) { interrupted = true; });
@@ -73,7 +80,7 @@ int run(Options options) {
 void add_train(CLI::App& program, Action& action) {
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand("train", "trains a network on synthetic faces");
-  command->add_option("NET", options->net, "which one")->required()->check(CLI::IsMember({"highlight"}));
+  command->add_option("NET", options->net, "which one")->required()->check(CLI::IsMember({"highlight", "face"}));
   command->add_option("--config", options->config, "training config, JSON; without it the defaults")
       ->check(CLI::ExistingFile);
   command->add_option("--data", options->run.data, "folder that `faceprobe synth` wrote")->required();

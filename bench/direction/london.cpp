@@ -24,6 +24,8 @@ namespace {
 
 using highlight::Separator;
 using lighting::Solver;
+using pipeline::NormalSource;
+using pipeline::ShadingSource;
 
 std::vector<Eigen::Vector3d> read_lights(const std::filesystem::path& file) {
   std::ifstream stream(file);
@@ -110,9 +112,22 @@ std::vector<Setting> settings(const std::filesystem::path& weights) {
       pipeline::EstimateOptions options;
       options.solve.solver = solver;
       options.classical = classical;
-      options.highlight_weights = weights;
+      options.weights = weights;
       all.push_back(
           {std::string(lighting::solver_name(solver)) + ", " + options.separator_name(), pipeline::Estimator(options)});
+    }
+  }
+  // What the network's normals and shading are worth, one by one.
+  for (const NormalSource normals : {NormalSource::kMesh, NormalSource::kNet}) {
+    for (const ShadingSource shading : {ShadingSource::kRegions, ShadingSource::kNet}) {
+      if (normals == NormalSource::kNet && shading == ShadingSource::kNet) continue;  // the first row
+      pipeline::EstimateOptions options;
+      options.weights = weights;
+      options.normals = normals;
+      options.shading = shading;
+      all.push_back({std::string("transport, net, normals of the ") + (normals == NormalSource::kNet ? "net" : "mesh") +
+                         ", shading by " + (shading == ShadingSource::kNet ? "net" : "region"),
+                     pipeline::Estimator(options)});
     }
   }
   return all;

@@ -124,7 +124,7 @@ void report_yale(const std::filesystem::path& folder, int every, const std::file
     pipeline::EstimateOptions options;
     options.solve.solver = setting.solver;
     options.classical = setting.classical;
-    options.highlight_weights = weights;
+    options.weights = weights;
     options.landmarks_px = fixed_landmarks();
     const pipeline::Estimator estimator(options);
     Row lamp{"single lamp by least squares" + std::string(setting.linear ? "" : ", codes taken for sRGB"), {}, {}};

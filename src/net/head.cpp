@@ -7,9 +7,10 @@
 #include <cmath>
 
 namespace faceprobe::net {
-namespace {
 
 float softplus(float x) { return std::max(x, 0.0F) + std::log1p(std::exp(-std::abs(x))); }
+
+namespace {
 
 // b I / (b^4 + I^4)^(1/4).
 float smooth_min(float b, float light) {
@@ -20,12 +21,13 @@ float smooth_min(float b, float light) {
 
 }  // namespace
 
-UNetOptions separator_options(const std::string& json) {
+UNetOptions separator_options(const std::string& json, int outputs) {
   UNetOptions options = unet_options_from_json(json);
-  if (options.in_channels != kInputChannels || options.out_channels != kRawChannels) {
+  if (options.in_channels != kInputChannels || options.out_channels != outputs) {
     throw Error(ExitCode::kModel, "The weights are of a network with " + std::to_string(options.in_channels) +
                                       " channels in and " + std::to_string(options.out_channels) +
-                                      " out; separating highlights takes 7 and 4. Use weights made for it.");
+                                      " out; its kind has " + std::to_string(kInputChannels) + " and " +
+                                      std::to_string(outputs) + ". Use weights made for it.");
   }
   return options;
 }

@@ -26,13 +26,15 @@ struct Head {
   static constexpr double kTiny = 1e-30;        // 0 / 0 becomes 0
 };
 
-// Options of a network that takes the channels above and gives those. Throws Error(kModel).
-UNetOptions separator_options(const std::string& json);
+// Options of a network that takes the channels above and gives `outputs`, the first of which are those. Throws Error(kModel).
+UNetOptions separator_options(const std::string& json, int outputs);
+
+float softplus(float x);
 
 // H x W x 7.
 Image network_input(const PaddedPicture& picture);
 
-// `raw`: H x W x 4, any numbers; `linear`: H x W x 3, finite, >= 0. Result: H x W x 3 with 0 <= highlight <= linear.
+// `raw`: H x W x 4 or more, any numbers; `linear`: H x W x 3, finite, >= 0. Result: H x W x 3 with 0 <= highlight <= linear.
 Image highlight_of_raw(const Image& raw, const Image& linear);
 
 }  // namespace faceprobe::net

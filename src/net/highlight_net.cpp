@@ -1,44 +1,28 @@
 #include "faceprobe/net/highlight_net.h"
 
 #include "faceprobe/core/error.h"
-#include "faceprobe/core/parallel.h"
 #include "faceprobe/io/safetensors.h"
 #include "io/safetensors_header.h"
+#include "net/face_outputs.h"
 #include "net/head.h"
 #include "net/model_info.h"
 #include "net/padded_picture.h"
+#include "net/thread_count.h"
 #include "net/unet_runner.h"
 
 #include <algorithm>
 
-// Of the OpenMP runtime that oneDNN brings. Declared here because clang has no omp.h without a runtime of its own.
-extern "C" int omp_get_max_threads();
-extern "C" void omp_set_num_threads(int);
-
 namespace faceprobe::net {
 namespace {
 
-// OpenMP's number of threads belongs to the thread that asks, so nobody else sees it changed.
-class ThreadCount {
- public:
-  explicit ThreadCount(int threads) : before_(omp_get_max_threads()) {
-    omp_set_num_threads(threads > 0 ? threads : default_thread_count());
-  }
-  ~ThreadCount() { omp_set_num_threads(before_); }
-  ThreadCount(const ThreadCount&) = delete;
-  ThreadCount& operator=(const ThreadCount&) = delete;
-
- private:
-  int before_;
-};
-
 UNetRunner make_runner(const ModelInfo& info, const io::TensorFile& file) {
-  if (info.architecture != kUNetArchitecture) {
+  if (info.architecture != kUNetArchitecture && info.architecture != kFaceArchitecture) {
     throw Error(ExitCode::kModel, "The weights are of a network " + io::quoted(info.architecture) +
-                                      "; highlights are taken off by unet. Use weights made for it.");
+                                      "; highlights are taken off by unet and face. Use weights made for one of them.");
   }
   WeightList weights(file);
-  UNetRunner runner(separator_options(info.options_json), weights);
+  const int outputs = info.architecture == kFaceArchitecture ? FaceOutputs::kCount : kRawChannels;
+  UNetRunner runner(separator_options(info.options_json, outputs), weights);
   weights.finish();
   return runner;
 }

@@ -2,6 +2,7 @@
 #include "faceprobe/face/canonical_mesh.h"
 #include "faceprobe/io/data_files.h"
 #include "faceprobe/lighting/albedo.h"
+#include "pipeline/apply_surface.h"
 #include "pipeline/camera_of.h"
 #include "pipeline/estimator_impl.h"
 #include "pipeline/light_result.h"
@@ -37,7 +38,7 @@ Image divide(const Image& diffuse, const Image& albedo, const ByteImage& skin) {
 
 Estimator::Impl::Impl(EstimateOptions wanted)
     : options(checked(std::move(wanted))), finder(options.finder),
-      mesh(face::load_canonical_mesh(io::data_file("canonical-face-model.obj"))), highlights(options) {}
+      mesh(face::load_canonical_mesh(io::data_file("canonical-face-model.obj"))), reader(options) {}
 
 std::vector<face::Face> Estimator::Impl::faces_of(const io::Photo& photo, const face::Camera& camera) const {
   if (options.landmarks_px) return {finder.from_landmarks(photo.linear, camera, *options.landmarks_px)};
@@ -56,15 +57,24 @@ FaceEstimate Estimator::Impl::analyse(const io::Photo& photo, const face::Camera
   out.clipped = face::crop_flags(photo.clipped, crop);
   watch.lap("geometry");
 
-  const ByteImage skin = skin_regions(out.geometry.region);
-  const bool enough = shows_enough(crop, photo.linear.width(), photo.linear.height());
-  out.layers = highlights.separate(out.picture, out.clipped, skin, enough);
-  watch.lap("highlights");
+  const bool enough = shown_share(crop, photo.linear.width(), photo.linear.height()) >= options.least_shown;
+  Reading reading = reader.read(out.picture, out.clipped, skin_regions(out.geometry.region), enough);
+  out.layers = std::move(reading.layers);
+  if (reading.surface && options.normals == NormalSource::kNet) apply_normals(*reading.surface, out.geometry);
+  watch.lap("highlights and normals");
 
-  const lighting::AlbedoModel albedo = lighting::fit_albedo(out.layers.diffuse, skin, out.clipped, photo.grey);
-  out.light_colour = albedo.light_colour;
-  out.albedo = lighting::albedo_picture(albedo, skin);
-  out.shading = divide(out.layers.diffuse, out.albedo, skin);
+  const ByteImage skin = skin_regions(out.geometry.region);
+  if (reading.surface && options.shading == ShadingSource::kNet) {
+    AlbedoShading split = split_diffuse(*reading.surface, out.layers.diffuse, skin);
+    out.albedo = std::move(split.albedo);
+    out.shading = std::move(split.shading);
+    out.light_colour = split.light_colour;
+  } else {
+    const lighting::AlbedoModel albedo = lighting::fit_albedo(out.layers.diffuse, skin, out.clipped, photo.grey);
+    out.light_colour = albedo.light_colour;
+    out.albedo = lighting::albedo_picture(albedo, skin);
+    out.shading = divide(out.layers.diffuse, out.albedo, skin);
+  }
   watch.lap("albedo and shading");
 
   out.observations =
@@ -101,7 +111,8 @@ Estimate Estimator::estimate(const io::Photo& photo) const {
   if (found.empty()) throw no_face(photo, impl_->options);
   for (face::Face& face : found) {
     FaceEstimate estimate = impl_->analyse(photo, out.camera, std::move(face), watch);
-    if (!impl_->options.classical && !shows_enough(estimate.geometry.crop, photo.linear.width(), photo.linear.height())) {
+    const double shown = shown_share(estimate.geometry.crop, photo.linear.width(), photo.linear.height());
+    if (!impl_->options.classical && shown < impl_->options.least_shown) {
       out.warnings.emplace_back(
           "The photo cuts off more than a third of a face; its highlights come from a classical separator, because the "
           "network needs more of a head.");

@@ -3,7 +3,7 @@
 
 #include "faceprobe/core/error.h"
 #include "faceprobe/pipeline/estimate.h"
-#include "pipeline/highlight_layers.h"
+#include "pipeline/face_reader.h"
 
 namespace faceprobe::pipeline {
 
@@ -17,7 +17,7 @@ struct Estimator::Impl {
   EstimateOptions options;
   face::FaceFinder finder;
   face::CanonicalMesh mesh;
-  HighlightSeparator highlights;
+  FaceReader reader;
 };
 
 // The sentence for a photo without a face.

@@ -32,6 +32,8 @@ std::string EstimateOptions::validate() const {
   if (map_width < 16 || map_width > 4096 || map_width % 4 != 0) {
     return "The map's width must be a multiple of 4 from 16 to 4096, found " + std::to_string(map_width) + ".";
   }
+  if (!(least_shown >= 0 && least_shown <= 1))
+    return "least_shown must be from 0 to 1, found " + std::to_string(least_shown) + ".";
   if (sh_order < 0 || sh_order > 10) return "sh_order must be from 0 to 10, found " + std::to_string(sh_order) + ".";
   if (landmarks_px && landmarks_px->rows() != 5 && landmarks_px->rows() != 68) {
     return "Give 5 or 68 landmarks, found " + std::to_string(landmarks_px->rows()) + ".";

@@ -102,6 +102,8 @@ std::string report_json(const Estimate& estimate, const io::Photo& photo, const 
                       {"focal_source", focal_source_name(estimate.focal_source)},
                       {"centre_px", {estimate.camera.centre_x_px, estimate.camera.centre_y_px}}};
   report["options"] = {{"separator", options.separator_name()},
+                       {"geometry", options.normals == NormalSource::kNet && !options.classical ? "net" : "mesh"},
+                       {"shading", options.shading == ShadingSource::kNet && !options.classical ? "net" : "regions"},
                        {"solver", lighting::solver_name(options.solve.solver)},
                        {"iterations", options.solve.iterations},
                        {"nside", options.solve.nside},

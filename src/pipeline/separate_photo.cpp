@@ -54,8 +54,8 @@ highlight::Layers Estimator::separate(const io::Photo& photo) const {
     const Image picture = cut(photo.linear, left, top, crop);
     const ByteImage skin = skin_regions(face::rasterize_regions(face, camera, impl_->mesh, crop));
     const highlight::Layers layers =
-        impl_->highlights.separate(picture, cut(photo.clipped, left, top, crop), skin,
-                                   shows_enough(wide, photo.linear.width(), photo.linear.height()));
+        impl_->reader.separate(picture, cut(photo.clipped, left, top, crop), skin,
+                                   shown_share(wide, photo.linear.width(), photo.linear.height()) >= impl_->options.least_shown);
     for (int y = 0; y < crop.height; ++y) {
       for (int x = 0; x < crop.width; ++x) {
         if (skin(x, y) == 0) continue;

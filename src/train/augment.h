@@ -15,10 +15,10 @@ struct TrainingPicture {
   Image highlight;  // 3 channels
   ByteImage skin;   // 1 channel
   // For the face network; empty for the others.
-  Image normal;      // 3 channels
-  Image depth_m;     // 1 channel
-  Image shading;     // 3 channels; 0 where it is not known
-  ByteImage region;  // 1 channel, Region
+  Image normal = {};      // 3 channels
+  Image depth_m = {};     // 1 channel
+  Image shading = {};     // 3 channels; 0 where it is not known
+  ByteImage region = {};  // 1 channel, Region
 
   bool has_surface() const { return !region.empty(); }
 };

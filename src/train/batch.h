@@ -33,7 +33,7 @@ struct Batch {
   torch::Tensor mask;       // N x 1 x H x W of 0 and 1
   torch::Tensor highlight;  // N x 3 x H x W
   torch::Tensor skin;       // N x 1 x H x W of 0 and 1: where errors count whole
-  SurfaceBatch surface;     // for the face network alone
+  SurfaceBatch surface = {};  // for the face network alone
 };
 
 // Samples as they are, for validation.

@@ -43,22 +43,22 @@ Model unet_model(const std::string& given, bool surface) {
   const auto options = read_options(net::unet_options_from_json, merged(net::options_json(defaults), given));
   net::UNet unet(options);
   unet->to(torch::kFloat, false);
-  const auto raw_of = [unet](const Batch& batch) mutable {
-    return unet->forward(net::prepare_input(batch.linear, batch.clip, batch.mask));
+  const auto raw_of = [impl = unet.ptr()](const Batch& batch) {
+    return impl->forward(net::prepare_input(batch.linear, batch.clip, batch.mask));
   };
   Model model;
   model.module = unet.ptr();
-  model.forward = [raw_of](const Batch& batch) mutable { return highlight_of(raw_of(batch), batch); };
+  model.forward = [raw_of](const Batch& batch) { return highlight_of(raw_of(batch), batch); };
   model.highlight = model.forward;
   model.metadata = {{net::kArchitectureKey, surface ? net::kFaceArchitecture : net::kUNetArchitecture},
                     {net::kOptionsKey, net::options_json(options)}};
-  model.loss = [raw_of, surface](const Batch& batch, const LossConfig& config) mutable {
+  model.loss = [raw_of, surface](const Batch& batch, const LossConfig& config) {
     const torch::Tensor raw = raw_of(batch);
     const torch::Tensor loss = highlight_loss(highlight_of(raw, batch), batch, config);
     return surface ? loss + surface_loss(net::surface_from_raw(raw), batch.surface, config) : loss;
   };
   if (surface)
-    model.surface = [raw_of](const Batch& batch) mutable { return net::surface_from_raw(raw_of(batch)); };
+    model.surface = [raw_of](const Batch& batch) { return net::surface_from_raw(raw_of(batch)); };
   return model;
 }
 

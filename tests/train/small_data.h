@@ -22,6 +22,18 @@ inline synth::ViewSamples spotted_discs(int size, int samples, std::uint64_t see
   out.view.region = ByteImage(size, size, 1, static_cast<std::uint8_t>(Region::kCheeks));
   out.view.owner = ByteImage(size, size, 1, 1);
   out.view.faces.resize(1);
+  // The disc bulges towards the camera.
+  for (int y = 0; y < size; ++y) {
+    for (int x = 0; x < size; ++x) {
+      const double u = (2.0 * x + 1) / size - 1;
+      const double v = 1 - (2.0 * y + 1) / size;
+      const double w = std::sqrt(std::max(0.05, 1 - 0.45 * (u * u + v * v)));
+      const double length = std::sqrt(0.45 * (u * u + v * v) + w * w);
+      out.view.normal(x, y, 0) = static_cast<float>(std::sqrt(0.45) * u / length);
+      out.view.normal(x, y, 1) = static_cast<float>(std::sqrt(0.45) * v / length);
+      out.view.normal(x, y, 2) = static_cast<float>(w / length);
+    }
+  }
   for (int s = 0; s < samples; ++s) {
     synth::Sample sample;
     sample.photo = ByteImage(size, size, 3);
@@ -37,7 +49,9 @@ inline synth::ViewSamples spotted_discs(int size, int samples, std::uint64_t see
         const auto spot = static_cast<float>(0.4 * std::exp(-r2 / (0.02 * size * size)));
         for (int c = 0; c < 3; ++c) {
           sample.highlight(x, y, c) = spot;
-          sample.diffuse(x, y, c) = skin * (c == 0 ? 1.0F : 0.6F);
+          sample.albedo(x, y, c) = skin * (c == 0 ? 1.0F : 0.6F);
+          sample.shading(x, y, c) = 1;
+          sample.diffuse(x, y, c) = sample.albedo(x, y, c) * sample.shading(x, y, c);
           const float whole = spot + sample.diffuse(x, y, c);
           sample.photo(x, y, c) =
               static_cast<std::uint8_t>(std::lround(255.0F * srgb_from_linear(std::min(1.0F, whole))));

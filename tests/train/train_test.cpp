@@ -77,6 +77,25 @@ TEST(Train, ARunOfAnotherConfigIsRefusedItsFolder) {
   }
 }
 
+TEST(Train, TheFaceNetworkLearnsTheSurfaceBesideTheHighlights) {
+  const DataFolder folder("face", 32, 24);
+  TrainRun run;
+  run.config = tiny_config();
+  run.config.architecture = "face";
+  run.data = run.validation_data = folder.data();
+  run.folder = folder.run("run");
+  run.threads = 1;
+  const TrainReport report = train_highlight(run, {});
+  ASSERT_TRUE(report.finished);
+  const Validation& first = report.rows[1].validation;  // after 100 steps
+  const Validation& last = report.rows.back().validation;
+  EXPECT_LT(last.skin, last.black_skin);
+  EXPECT_LT(last.normal_deg, 15);  // pointing at the camera everywhere is off by 25
+  EXPECT_GT(last.region_share, 0.9);
+  EXPECT_LT(last.colour_deg, 10);
+  EXPECT_LE(last.normal_deg, first.normal_deg);
+}
+
 TEST(Train, ThePapersNetworkTrainsToo) {
   const DataFolder folder("mscr", 32, 8);
   TrainRun run;
@@ -122,7 +141,7 @@ TEST(TrainLog, HasALineForEachRowAndACurve) {
   rows[2].validation = {4, 5, 8, 9};
   const std::string csv = to_csv(rows);
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 4);
-  EXPECT_NE(csv.find("150,0.0333333,0.001,20.00,4.0000,5.0000,8.0000,9.0000\n"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("150,0.0333333,0.001,20.00,4.0000,5.0000,8.0000,9.0000,0.000,0.0000,0.0000,0.000\n"), std::string::npos) << csv;
   const ByteImage picture = draw_curves(rows);
   int dark = 0;
   for (std::size_t i = 0; i < picture.pixel_count(); ++i) dark += picture.data()[3 * i] < 60 ? 1 : 0;

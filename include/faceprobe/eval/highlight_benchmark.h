@@ -30,7 +30,7 @@ HighlightMethod black_method();
 struct HighlightBenchmark {
   int samples = 100;  // spread evenly over the data set; those that show less than 5 % skin are left out
   int threads = 0;
-  std::function<void(int done, int total)> progress;
+  std::function<void(int done, int total)> progress = {};
 
   std::string validate() const;
 };

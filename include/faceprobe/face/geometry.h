@@ -44,6 +44,8 @@ struct FaceGeometry {
   Image position_cam_m;  // crop x 3, metres, camera frame (z < 0); 0 where not face
   Image view_cam;        // crop x 3, unit, from the surface to the camera; defined everywhere
   ByteImage region;      // crop x 1, Region
+  // Crop x 1: the angle by which the normal is expected to be off, from what made it; empty = not known, as of the mesh.
+  Image normal_error_rad = {};
 };
 
 // The crop that a face gets.

@@ -33,11 +33,27 @@
 
 namespace faceprobe::pipeline {
 
+// Where the normals, or albedo and shading come from. The network's answers need the network: with a classical separator, and of faces
+// that the photo cuts off, they are the mesh's and the regions'.
+enum class NormalSource {
+  kMesh,  // the dense face mesh, posed
+  kNet,   // the network, per pixel, with an error of its own
+};
+enum class ShadingSource {
+  kRegions,  // one albedo a region, see lighting/albedo.h
+  kNet,      // the network's shading; what the diffuse layer is beyond it is albedo
+};
+
 struct EstimateOptions {
   face::FinderOptions finder;
-  // How highlights are taken off: by the trained network (net/highlight_net.h) where unset, else by a classical separator.
+  // How highlights are taken off: by the trained network (net/face_net.h) where unset, else by a classical separator.
   std::optional<highlight::Separator> classical;
-  std::filesystem::path highlight_weights;  // of the network; empty = those that come with the program (models/README.md)
+  std::filesystem::path weights;  // of the network, "face" or "unet"; empty = those that come with the program (models/README.md)
+  NormalSource normals = NormalSource::kNet;
+  ShadingSource shading = ShadingSource::kNet;
+  // Least share of a face's crop that the photo must show for the network; below, the classical separator, the mesh and the regions step
+  // in. The network learnt from whole heads; of the middle of a face alone it makes shading a highlight.
+  double least_shown = 2.0 / 3.0;
   lighting::SolveOptions solve;
   lighting::MainLightOptions main_lights;
   // Focal length in pixels of the photo; unset = from EXIF, else a 50 mm lens on a 36 x 24 mm frame (a common portrait view).

@@ -11,8 +11,6 @@
 namespace faceprobe::net {
 namespace {
 
-constexpr double kNoise = 0.1;  // of the copied weights' standard deviation
-
 // Of each new channel the old one it copies, and one over the number of copies that old one has.
 struct Copies {
   torch::Tensor source;  // int64
@@ -34,14 +32,15 @@ Copies copies_of(std::int64_t before, std::int64_t after) {
   return {torch::tensor(source), torch::tensor(share)};
 }
 
-torch::Tensor widened(const torch::Tensor& before, const torch::Tensor& like) {
+torch::Tensor widened(const torch::Tensor& before, const torch::Tensor& like, double noise) {
   const Copies out = copies_of(before.size(0), like.size(0));
   torch::Tensor after = before.index_select(0, out.source);
   if (before.dim() < 4) return after;
   const Copies in = copies_of(before.size(1), like.size(1));
   after = after.index_select(1, in.source) * in.share.view({1, -1, 1, 1});
-  const torch::Tensor noise = torch::randn_like(after) * (kNoise * after.std());
-  return after + noise * (out.share < 1).to(torch::kFloat).view({-1, 1, 1, 1});
+  if (noise == 0) return after;
+  const torch::Tensor change = torch::randn_like(after) * (noise * after.std());
+  return after + change * (out.share < 1).to(torch::kFloat).view({-1, 1, 1, 1});
 }
 
 // The head's outputs are no features: the first ones are the old network's, the others new.
@@ -69,7 +68,7 @@ void check_fits(const UNetOptions& narrow, const UNetOptions& wide) {
 
 }  // namespace
 
-void load_widened(UNet& net, const std::filesystem::path& weights) {
+void load_widened(UNet& net, const std::filesystem::path& weights, double noise) {
   const io::TensorFile file = io::read_safetensors(weights);
   const UNetOptions options = unet_options_from_json(model_info(file, weights.string()).options_json);
   check_fits(options, net->options());
@@ -80,7 +79,7 @@ void load_widened(UNet& net, const std::filesystem::path& weights) {
   for (const auto& item : net->named_parameters()) {
     const bool head = item.key().starts_with("head.");
     const torch::Tensor& old = before[item.key()];
-    torch::Tensor(item.value()).copy_(head ? with_more_outputs(old, item.value()) : widened(old, item.value()));
+    torch::Tensor(item.value()).copy_(head ? with_more_outputs(old, item.value()) : widened(old, item.value(), noise));
   }
 }
 

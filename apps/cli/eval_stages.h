@@ -1,0 +1,31 @@
+#pragma once
+// The stages that `faceprobe eval` measures, one file each: they print Markdown and write what --output asks for.
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace faceprobe::cli {
+
+struct EvalOptions {
+  std::string stage;
+  std::string data;
+  std::vector<std::string> weights;  // FILE or NAME=FILE
+  std::string output;                // empty: nothing is written
+  std::string device = "auto";
+  int rows = 12;  // of pictures
+  int samples = 100;
+  int threads = 0;
+};
+
+int eval_highlight(const EvalOptions& options);
+int eval_geometry(const EvalOptions& options);
+int eval_shading(const EvalOptions& options);
+
+// NAME=FILE as that pair; of FILE alone its stem is the name.
+std::pair<std::string, std::string> name_and_file(const std::string& named);
+// Counts on a terminal, else says nothing.
+std::function<void(int done, int total)> eval_progress();
+
+}  // namespace faceprobe::cli

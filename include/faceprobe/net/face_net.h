@@ -1,0 +1,62 @@
+#pragma once
+// All that a trained network sees in the picture of one face: its highlights, and the surface and light beneath them. One network with one
+// trunk, because each answer helps the others: a bright spot is a highlight or light skin according to where its normal points. Give it a
+// crop of one face at about the size it was trained at (128 px); it was trained on faces only. Runs on the processor.
+//
+//   const net::FaceNet network("models/face.safetensors", {.threads = 0});
+//   const net::FaceLayers layers = network.layers(crop, clip, mask);
+//   Eigen::Vector3f normal(layers.normal_cam.pixel(x, y));
+//   // diffuse = crop - layers.highlight; albedo = diffuse / layers.shading
+//
+// Not for metric depth (`depth_m` has an origin of its own; place it by the head's pose), and not for hair, glasses and clothes, whose
+// normals it has never been asked for.
+
+#include "faceprobe/core/image.h"
+#include "faceprobe/net/model_file.h"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace faceprobe::net {
+
+// Pictures of the crop's size. The highlight ends where the mask does; the rest is defined everywhere and means something on skin.
+struct FaceLayers {
+  Image highlight;         // 3 channels, linear; 0 <= highlight <= picture
+  Image normal_cam;        // 3 channels, unit, camera frame (+x right, +y up, +z to the viewer)
+  Image normal_error_rad;  // 1 channel, > 0: the angle by which the normal is expected to be off
+  Image depth_m;           // 1 channel, larger = further from the camera, up to a constant
+  Image shading;           // 3 channels, > 0: the diffuse layer over the albedo, irradiance / pi on the picture's scale
+  ByteImage region;        // 1 channel, Region
+};
+
+struct FaceNetOptions {
+  int threads = 0;  // 0 = all processors; the result does not depend on it
+
+  std::string validate() const;
+};
+
+class FaceNet {
+ public:
+  // Throws Error(kModel): the file is not there, damaged, or of another network; Error(kUsage): the options do not validate.
+  explicit FaceNet(const std::filesystem::path& weights, const FaceNetOptions& options = {});
+  FaceNet(const FaceNet&) = delete;
+  FaceNet& operator=(const FaceNet&) = delete;
+  FaceNet(FaceNet&&) noexcept;
+  FaceNet& operator=(FaceNet&&) noexcept;
+  ~FaceNet();
+
+  // Pictures as HighlightNet::highlight takes them; a grey one gives grey highlights and grey shading. May be called from several
+  // threads. Throws std::invalid_argument when sizes or channels differ.
+  FaceLayers layers(const Image& linear, const ByteImage& clip, const ByteImage& mask) const;
+  // Mean of what it sees in the picture and in its mirror image; takes twice the time. The region is the picture's own.
+  FaceLayers layers_both_ways(const Image& linear, const ByteImage& clip, const ByteImage& mask) const;
+
+  const ModelInfo& info() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace faceprobe::net

@@ -1,0 +1,25 @@
+#include "faceprobe/eval/geometry_benchmark.h"
+#include "faceprobe/face/geometry.h"
+#include "faceprobe/io/data_files.h"
+
+#include <algorithm>
+
+namespace faceprobe::eval {
+
+GeometryMethod mesh_method(std::shared_ptr<const face::FaceFinder> finder) {
+  auto mesh = std::make_shared<const face::CanonicalMesh>(
+      face::load_canonical_mesh(io::data_file("canonical-face-model.obj")));
+  return {"mesh", [finder = std::move(finder), mesh](const GeometryInput& input) -> GeometryEstimate {
+            const std::vector<face::Face> found = finder->find(input.linear, input.camera);
+            if (found.empty()) return {};
+            const auto largest = std::max_element(found.begin(), found.end(), [](const auto& a, const auto& b) {
+              return a.box.width * a.box.height < b.box.width * b.box.height;
+            });
+            const face::Crop whole{
+                .x_px = 0, .y_px = 0, .scale = 1, .width = input.linear.width(), .height = input.linear.height()};
+            face::FaceGeometry geometry = face::rasterize(*largest, input.camera, *mesh, whole);
+            return {std::move(geometry.normal_cam), {}, std::move(geometry.region)};
+          }};
+}
+
+}  // namespace faceprobe::eval

@@ -1,0 +1,52 @@
+#include "eval/synthetic_photo.h"
+
+#include "faceprobe/eval/skin_tone.h"
+
+#include <algorithm>
+
+namespace faceprobe::eval {
+
+SyntheticPhoto::SyntheticPhoto(const synth::ShardReader& faces, int number)
+    : sample(faces.copy_sample(number)), view(faces.copy_view(number)), layers(synth::photo_layers(sample)),
+      face(synth::face_mask(view, 1.0F)), skin(synth::skin_mask(view)) {
+  for (std::size_t i = 0; i < skin.values().size(); ++i) skin.data()[i] = skin.data()[i] & face.data()[i];
+}
+
+double SyntheticPhoto::skin_share() const {
+  return static_cast<double>(std::count(skin.values().begin(), skin.values().end(), 1)) /
+         static_cast<double>(skin.pixel_count());
+}
+
+bool SyntheticPhoto::enough_skin() const {
+  constexpr double kLeastSkin = 0.05;
+  return skin_share() >= kLeastSkin;
+}
+
+std::string SyntheticPhoto::tone() const {
+  Eigen::Vector3d albedo = Eigen::Vector3d::Zero();
+  double count = 0;
+  for (std::size_t i = 0; i < skin.pixel_count(); ++i) {
+    if (skin.data()[i] == 0) continue;
+    albedo += Eigen::Map<const Eigen::Vector3f>(sample.albedo.data() + 3 * i).cast<double>();
+    ++count;
+  }
+  return std::string(skin_tone_name(skin_tone(ita_deg(albedo / count))));
+}
+
+std::vector<int> evenly_chosen(const synth::ShardReader& faces, int count) {
+  std::vector<int> numbers;
+  numbers.reserve(static_cast<std::size_t>(count));
+  const int taken = std::min(count, faces.sample_count());
+  for (int i = 0; i < taken; ++i)
+    numbers.push_back(static_cast<int>((static_cast<long long>(i) * faces.sample_count()) / taken));
+  return numbers;
+}
+
+std::vector<std::string> tone_names() {
+  std::vector<std::string> tones;
+  tones.reserve(kSkinTones.size());
+  for (const SkinTone tone : kSkinTones) tones.emplace_back(skin_tone_name(tone));
+  return tones;
+}
+
+}  // namespace faceprobe::eval

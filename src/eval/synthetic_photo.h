@@ -1,0 +1,34 @@
+#pragma once
+// Internal: a synthetic photo as the benchmarks see it: what a method is given, and where it is judged.
+
+#include "faceprobe/synth/photo_layers.h"
+#include "faceprobe/synth/shard.h"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace faceprobe::eval {
+
+struct SyntheticPhoto {
+  synth::Sample sample;
+  synth::ViewLayers view;
+  synth::PhotoLayers layers;
+  ByteImage face;  // mask that the method is given
+  ByteImage skin;  // where it is judged: the face's own skin inside that mask
+
+  SyntheticPhoto(const synth::ShardReader& faces, int number);
+
+  double skin_share() const;  // of the crop
+  bool enough_skin() const;   // to judge by: 5 %
+  // The skin's tone from the true albedo (skin_tone.h).
+  std::string tone() const;
+};
+
+// Evenly over the data set.
+std::vector<int> evenly_chosen(const synth::ShardReader& faces, int count);
+
+// Names of the skin tones from light to dark, as tables order them.
+std::vector<std::string> tone_names();
+
+}  // namespace faceprobe::eval

@@ -1,0 +1,86 @@
+#include "net/face_layers.h"
+
+#include "faceprobe/core/mirror.h"
+#include "net/face_outputs.h"
+#include "net/head.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+
+namespace faceprobe::net {
+namespace {
+
+using Out = FaceOutputs;
+
+float limited(float raw, double most) { return std::clamp(raw, static_cast<float>(-most), static_cast<float>(most)); }
+
+Eigen::Vector3f normal_of(const float* raw) {
+  Eigen::Vector3f free;
+  for (int c = 0; c < 3; ++c) free[c] = limited(raw[Out::kNormal + c], Head::kLargestRaw);
+  free.z() += 1;
+  return free / std::max(free.norm(), static_cast<float>(Out::kShortest));
+}
+
+Eigen::Array3f shading_of(const float* raw) {
+  Eigen::Array3f colour;
+  for (int c = 0; c < 3; ++c)
+    colour[c] = softplus(limited(raw[Out::kShading + 1 + c], Head::kLargestRaw)) + static_cast<float>(Head::kColourFloor);
+  return std::exp(limited(raw[Out::kShading], Out::kLargestLog)) * colour / colour.mean();
+}
+
+Image mean_of(const Image& a, const Image& b) {
+  Image mean = a;
+  for (std::size_t i = 0; i < a.values().size(); ++i) mean.data()[i] = 0.5F * (a.data()[i] + b.data()[i]);
+  return mean;
+}
+
+}  // namespace
+
+FaceLayers surface_of_raw(const Image& raw, int width, int height) {
+  FaceLayers layers{.highlight = {},
+                    .normal_cam = Image(width, height, 3),
+                    .normal_error_rad = Image(width, height, 1),
+                    .depth_m = Image(width, height, 1),
+                    .shading = Image(width, height, 3),
+                    .region = ByteImage(width, height, 1)};
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const float* from = raw.pixel(x, y);
+      Eigen::Map<Eigen::Vector3f>(layers.normal_cam.pixel(x, y)) = normal_of(from);
+      Eigen::Map<Eigen::Array3f>(layers.shading.pixel(x, y)) = shading_of(from);
+      layers.normal_error_rad(x, y) =
+          static_cast<float>(Out::kUsualError) * std::exp(limited(from[Out::kSpread], Out::kLargestLog));
+      layers.depth_m(x, y) = static_cast<float>(Out::kDepthUnit) * from[Out::kDepth];
+      const float* scores = from + Out::kRegion;
+      layers.region(x, y) = static_cast<std::uint8_t>(std::max_element(scores, scores + kRegionCount) - scores);
+    }
+  }
+  return layers;
+}
+
+FaceLayers mean_of(const FaceLayers& a, const FaceLayers& b) {
+  FaceLayers mean{.highlight = mean_of(a.highlight, b.highlight),
+                  .normal_cam = mean_of(a.normal_cam, b.normal_cam),
+                  .normal_error_rad = mean_of(a.normal_error_rad, b.normal_error_rad),
+                  .depth_m = mean_of(a.depth_m, b.depth_m),
+                  .shading = mean_of(a.shading, b.shading),
+                  .region = a.region};
+  for (std::size_t i = 0; i < mean.normal_cam.values().size(); i += 3) {
+    Eigen::Map<Eigen::Vector3f> normal(mean.normal_cam.data() + i);
+    normal /= std::max(normal.norm(), static_cast<float>(Out::kShortest));
+  }
+  return mean;
+}
+
+void mirror(FaceLayers& layers) {
+  mirror(layers.highlight);
+  mirror(layers.normal_cam);
+  for (std::size_t i = 0; i < layers.normal_cam.values().size(); i += 3) layers.normal_cam.data()[i] *= -1;
+  mirror(layers.normal_error_rad);
+  mirror(layers.depth_m);
+  mirror(layers.shading);
+  mirror(layers.region);
+}
+
+}  // namespace faceprobe::net

@@ -1,0 +1,17 @@
+#pragma once
+// The face network's raw output for one picture, read as face_outputs.h says; torch/face_head.h is the same for training.
+
+#include "faceprobe/net/face_net.h"
+
+namespace faceprobe::net {
+
+// `raw`: H x W x FaceOutputs::kCount, at least as large as the result in either direction. Everything but the highlight, which head.h reads.
+FaceLayers surface_of_raw(const Image& raw, int width, int height);
+
+// The mean of two pictures' layers, regions those of the first; normals are unit again.
+FaceLayers mean_of(const FaceLayers& a, const FaceLayers& b);
+
+// The layers of the mirror image's mirror image: left and right change places, and so does the sign of the normals' x.
+void mirror(FaceLayers& layers);
+
+}  // namespace faceprobe::net

@@ -1,0 +1,20 @@
+#pragma once
+// Puts what the network sees of a face's surface in the place of what the mesh says.
+
+#include "pipeline/face_reader.h"
+
+namespace faceprobe::pipeline {
+
+// Where the mesh covers the face: the network's normals, their errors, and its regions, so that hair, glasses and hands before the face
+// are no skin. The network looks along the axis of a camera of its own; the normals are turned to where the face is seen.
+void apply_normals(const Surface& surface, face::FaceGeometry& geometry);
+
+struct AlbedoShading {
+  Image albedo;                  // H x W x 3
+  Image shading;                 // H x W x 3; 0 off the skin
+  Eigen::Vector3f light_colour;  // mean shading on the skin, green = 1
+};
+// albedo * shading = diffuse on the skin (`skin`: H x W x 1, non-zero).
+AlbedoShading split_diffuse(const Surface& surface, const Image& diffuse, const ByteImage& skin);
+
+}  // namespace faceprobe::pipeline

@@ -1,0 +1,148 @@
+#include "pipeline/face_reader.h"
+
+#include "faceprobe/face/geometry.h"
+#include "faceprobe/highlight/upsample.h"
+#include "faceprobe/io/data_files.h"
+#include "faceprobe/net/both_ways.h"
+#include "faceprobe/net/face_net.h"
+#include "faceprobe/net/highlight_net.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace faceprobe::pipeline {
+
+double shown_share(const face::Crop& crop, int photo_width, int photo_height) {
+  const double width = crop.width / crop.scale;
+  const double height = crop.height / crop.scale;
+  const double shown_width = std::min(crop.x_px + width, static_cast<double>(photo_width)) - std::max(crop.x_px, 0.0);
+  const double shown_height = std::min(crop.y_px + height, static_cast<double>(photo_height)) - std::max(crop.y_px, 0.0);
+  return std::max(0.0, shown_width) * std::max(0.0, shown_height) / (width * height);
+}
+
+namespace {
+
+// A clipped channel keeps what is diffuse, as the network has learnt, so that the highlight lacks that colour: cyan where red is clipped.
+// The light had no such hole; it is taken to have been as bright there as in the channels that were not clipped.
+void fill_clipped(const ByteImage& flags, const Image& picture, Image& highlight) {
+  for (int y = 0; y < highlight.height(); ++y) {
+    for (int x = 0; x < highlight.width(); ++x) {
+      const unsigned clipped = flags(x, y) & 7U;
+      if (clipped == 0 || clipped == 7U) continue;
+      float* out = highlight.pixel(x, y);
+      float sum = 0;
+      int count = 0;
+      for (unsigned c = 0; c < 3; ++c) {
+        if ((clipped >> c & 1U) != 0) continue;
+        sum += out[c];
+        ++count;
+      }
+      const float others = sum / static_cast<float>(count);
+      for (unsigned c = 0; c < 3; ++c) {
+        if ((clipped >> c & 1U) != 0) out[c] = std::max(out[c], std::min(others, picture(x, y, static_cast<int>(c))));
+      }
+    }
+  }
+}
+
+// The network's small picture of the whole.
+face::Crop small_copy(const Image& picture) {
+  constexpr int kLongSidePx = 128;  // synthetic faces of 128 px fill their pictures about as a crop does
+  const int long_side = std::max(picture.width(), picture.height());
+  const double scale = std::min(1.0, static_cast<double>(kLongSidePx) / long_side);
+  const auto shrunk = [scale](int px) { return std::max(1, static_cast<int>(std::lround(scale * px))); };
+  return {.x_px = 0, .y_px = 0, .scale = scale, .width = shrunk(picture.width()), .height = shrunk(picture.height())};
+}
+
+Image enlarged(const Image& small, const face::Crop& copy, int width, int height) {
+  return face::crop_picture(small, {.x_px = 0, .y_px = 0, .scale = 1 / copy.scale, .width = width, .height = height});
+}
+
+// Each pixel has the region of the small pixel it lies in.
+ByteImage enlarged(const ByteImage& small, const face::Crop& copy, int width, int height) {
+  ByteImage out(width, height, 1);
+  const auto inside = [](double at, int size) { return std::min(static_cast<int>(at), size - 1); };
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x)
+      out(x, y) = small(inside((x + 0.5) * copy.scale, small.width()), inside((y + 0.5) * copy.scale, small.height()));
+  }
+  return out;
+}
+
+void make_unit(Image& normals) {
+  for (std::size_t i = 0; i < normals.values().size(); i += 3) {
+    Eigen::Map<Eigen::Vector3f> normal(normals.data() + i);
+    const float length = normal.norm();
+    if (length > 0) normal /= length;
+  }
+}
+
+}  // namespace
+
+struct FaceReader::Network {
+  std::unique_ptr<net::HighlightNet> highlights;  // one of the two
+  std::unique_ptr<net::FaceNet> face;
+  int threads;
+
+  Network(const std::filesystem::path& weights, int threads_) : threads(threads_) {
+    if (net::read_model_info(weights).architecture == net::kFaceArchitecture) {
+      face = std::make_unique<net::FaceNet>(weights, net::FaceNetOptions{.threads = threads});
+    } else {
+      highlights = std::make_unique<net::HighlightNet>(weights, net::HighlightNetOptions{.threads = threads});
+    }
+  }
+
+  net::FaceLayers see(const Image& small, const ByteImage& flags, const ByteImage& mask) const {
+    if (face) return face->layers_both_ways(small, flags, mask);
+    net::FaceLayers layers;
+    layers.highlight = net::highlight_both_ways(*highlights, small, flags, mask);
+    return layers;
+  }
+
+  Reading read(const Image& picture, const ByteImage& flags, const ByteImage& skin) const {
+    const face::Crop copy = small_copy(picture);
+    const Image small = face::crop_picture(picture, copy);
+    ByteImage where(skin.width(), skin.height(), 1);
+    std::transform(skin.values().begin(), skin.values().end(), where.values().begin(),
+                   [](std::uint8_t value) { return value != 0 ? std::uint8_t{1} : std::uint8_t{0}; });
+    const ByteImage small_flags = face::crop_flags(flags, copy);
+    net::FaceLayers found = see(small, small_flags, face::crop_flags(where, copy));
+    fill_clipped(small_flags, small, found.highlight);  // here, where no pixel stands apart from its neighbours
+    Reading reading;
+    reading.layers.highlight =
+        highlight::upsample_highlight(found.highlight, small, picture, where, {.threads = threads});
+    reading.layers.diffuse = picture;
+    for (std::size_t i = 0; i < picture.values().size(); ++i)
+      reading.layers.diffuse.data()[i] -= reading.layers.highlight.data()[i];
+    if (found.normal_cam.empty()) return reading;
+    const int width = picture.width();
+    const int height = picture.height();
+    Surface surface{enlarged(found.normal_cam, copy, width, height),
+                    enlarged(found.normal_error_rad, copy, width, height),
+                    enlarged(found.shading, copy, width, height), enlarged(found.region, copy, width, height)};
+    make_unit(surface.normal_cam);
+    reading.surface = std::move(surface);
+    return reading;
+  }
+};
+
+FaceReader::FaceReader(const EstimateOptions& options)
+    : classical_{.separator = options.classical.value_or(highlight::Separator::kYang), .threads = options.threads} {
+  if (options.classical) return;
+  network_ = std::make_unique<Network>(
+      options.weights.empty() ? io::data_file("face.safetensors") : options.weights, options.threads);
+}
+
+FaceReader::~FaceReader() = default;
+
+Reading FaceReader::read(const Image& picture, const ByteImage& flags, const ByteImage& skin, bool enough) const {
+  if (network_ && enough) return network_->read(picture, flags, skin);
+  return {highlight::separate(picture, skin, classical_), {}};
+}
+
+highlight::Layers FaceReader::separate(const Image& picture, const ByteImage& flags, const ByteImage& skin,
+                                       bool enough) const {
+  return read(picture, flags, skin, enough).layers;
+}
+
+}  // namespace faceprobe::pipeline

@@ -1,0 +1,53 @@
+#pragma once
+// Reads a face's picture: its highlights, by the network unless a classical separator is asked for or the photo shows too little of the
+// face, and where the network tells them its surface and the light on it. Pictures may have any size; the network works on a small copy,
+// as large as those it was trained on. Highlights follow the picture's detail back up, the rest is smooth enough to be enlarged.
+
+#include "faceprobe/face/geometry.h"
+#include "faceprobe/highlight/separate.h"
+#include "faceprobe/pipeline/estimate.h"
+
+#include <memory>
+#include <optional>
+
+namespace faceprobe::pipeline {
+
+// How much of a face's crop (face::face_crop) a photo shows, 0 to 1.
+double shown_share(const face::Crop& crop, int photo_width, int photo_height);
+
+// As net::FaceLayers has it, at the picture's size; the normals as if the camera looked at the picture's middle.
+struct Surface {
+  Image normal_cam;
+  Image normal_error_rad;
+  Image shading;
+  ByteImage region;
+};
+
+struct Reading {
+  highlight::Layers layers;
+  std::optional<Surface> surface;
+};
+
+class FaceReader {
+ public:
+  // Throws Error(kModel): weights that cannot be read.
+  explicit FaceReader(const EstimateOptions& options);
+  ~FaceReader();
+  FaceReader(const FaceReader&) = delete;
+  FaceReader& operator=(const FaceReader&) = delete;
+  FaceReader(FaceReader&&) = delete;
+  FaceReader& operator=(FaceReader&&) = delete;
+
+  // picture: H x W x 3 linear crop of one face; flags: io::Photo::clipped in the crop; skin: H x W x 1, non-zero where to separate;
+  // enough: of the face is shown, without which the classical separator steps in.
+  Reading read(const Image& picture, const ByteImage& flags, const ByteImage& skin, bool enough) const;
+  // The layers alone.
+  highlight::Layers separate(const Image& picture, const ByteImage& flags, const ByteImage& skin, bool enough) const;
+
+ private:
+  struct Network;
+  std::unique_ptr<Network> network_;
+  highlight::SeparateOptions classical_;
+};
+
+}  // namespace faceprobe::pipeline
