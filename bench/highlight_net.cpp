@@ -1,12 +1,11 @@
-// bench_highlight_net --data DIR [--weights FILE]: what the highlight network costs. Loading, a crop of a face, and the layers of whole
+// bench_highlight_net --data DIR [--weights FILE]: what the face network costs. Loading, a crop of a face, and the layers of whole
 // photos (DIR/real/portraits/london_fullres, enlarged to 12 MP) at their full size, less the search for the face. Prints a Markdown table.
 
-#include "faceprobe/net/highlight_net.h"
 #include "faceprobe/core/error.h"
 #include "faceprobe/face/geometry.h"
 #include "faceprobe/io/data_files.h"
 #include "faceprobe/io/photo.h"
-#include "faceprobe/net/both_ways.h"
+#include "faceprobe/net/face_net.h"
 #include "faceprobe/pipeline/estimate.h"
 #include "support/photos.h"
 #include "support/statistics.h"
@@ -61,19 +60,20 @@ io::Photo enlarged(io::Photo photo) {
 }
 
 void report(const std::filesystem::path& data, const std::filesystem::path& weights, int threads) {
-  const net::HighlightNetOptions options{.threads = threads};
+  const net::FaceNetOptions options{.threads = threads};
   std::printf("| what | ms, median | target |\n| --- | ---: | ---: |\n");
-  row("load the weights, fp16", median_ms(9, [&] { net::HighlightNet load(weights, options); }), "150");
+  row("load the weights, fp16", median_ms(9, [&] { net::FaceNet load(weights, options); }), "150");
   const auto begin = std::chrono::steady_clock::now();
-  const net::HighlightNet network(weights, options);
+  const net::FaceNet network(weights, options);
   const Image small = waves(128, 128);
-  (void)network.highlight(small, {}, {});
+  (void)network.layers(small, {}, {}, {});
   row("load and take the first crop of 128 px",
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count(), "-");
-  row("crop of 128 px", median_ms(21, [&] { (void)network.highlight(small, {}, {}); }), "-");
+  row("crop of 128 px, both ways", median_ms(21, [&] { (void)network.layers_both_ways(small, {}, {}, {}); }), "-");
+  row("crop of 128 px", median_ms(21, [&] { (void)network.layers(small, {}, {}, {}); }), "-");
   const Image crop = waves(256, 256);
-  row("crop of 256 px", median_ms(21, [&] { (void)network.highlight(crop, {}, {}); }), "80");
-  row("crop of 256 px, both ways", median_ms(21, [&] { (void)net::highlight_both_ways(network, crop, {}, {}); }), "80");
+  row("crop of 256 px", median_ms(21, [&] { (void)network.layers(crop, {}, {}, {}); }), "80");
+  row("crop of 256 px, both ways", median_ms(21, [&] { (void)network.layers_both_ways(crop, {}, {}, {}); }), "80");
   for (const bool classical : {false, true}) {
     pipeline::EstimateOptions estimate_options;
     estimate_options.threads = threads;
@@ -100,7 +100,7 @@ void report(const std::filesystem::path& data, const std::filesystem::path& weig
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("What the highlight network costs");
+  CLI::App app("What the face network costs");
   std::string data;
   std::string weights;
   int threads = 0;
@@ -109,7 +109,7 @@ int main(int argc, char** argv) {
   app.add_option("--threads", threads, "0 = all")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   try {
-    report(data, weights.empty() ? io::data_file("highlight.safetensors") : std::filesystem::path(weights), threads);
+    report(data, weights.empty() ? io::data_file("face.safetensors") : std::filesystem::path(weights), threads);
   } catch (const std::exception& error) {
     std::cerr << error.what() << '\n';
     return 2;

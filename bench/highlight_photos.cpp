@@ -12,9 +12,10 @@
 #include "faceprobe/io/photo.h"
 #include "faceprobe/io/picture_file.h"
 #include "faceprobe/pipeline/estimate.h"
+#include "support/cells.h"
 #include "support/photos.h"
+#include "support/square.h"
 #include "support/statistics.h"
-#include "train/frontalise.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -37,34 +38,11 @@ constexpr int kCellPx = 160;
 constexpr int kSquarePx = 96;
 constexpr float kLighten = 4.0F;  // highlights of skin are about a tenth of its light
 
-std::optional<pipeline::FaceEstimate> largest_face(const pipeline::Estimator& estimator, const io::Photo& photo) {
-  try {
-    pipeline::Estimate estimate = estimator.estimate(photo);
-    return std::move(estimate.faces[estimate.largest]);
-  } catch (const Error& error) {
-    if (error.code() != ExitCode::kNoFace) throw;
-    return std::nullopt;
-  }
-}
-
-// In the middle of a cell, black around.
-void put(const Image& picture, float gain, int x0, int y0, ByteImage& sheet) {
-  face::Crop fit{.x_px = 0, .y_px = 0};
-  fit.scale = static_cast<double>(kCellPx) / std::max(picture.width(), picture.height());
-  fit.width = std::min(kCellPx, static_cast<int>(std::lround(fit.scale * picture.width())));
-  fit.height = std::min(kCellPx, static_cast<int>(std::lround(fit.scale * picture.height())));
-  const ByteImage small = encode_srgb(face::crop_picture(picture, fit), gain);
-  for (int y = 0; y < small.height(); ++y) {
-    std::copy_n(small.pixel(0, y), small.row(y).size(),
-                sheet.pixel(x0 + (kCellPx - small.width()) / 2, y0 + (kCellPx - small.height()) / 2 + y));
-  }
-}
-
 void draw_sheet(const pipeline::Estimator& estimator, const std::vector<fs::path>& files, const fs::path& to) {
   constexpr int kAcross = 4;  // faces of three cells each
   std::vector<pipeline::FaceEstimate> faces;
   for (const fs::path& file : files) {
-    if (auto face = largest_face(estimator, io::load_photo(file))) faces.push_back(std::move(*face));
+    if (auto face = bench::largest_face(estimator, io::load_photo(file))) faces.push_back(std::move(*face));
   }
   if (faces.empty())
     throw Error(ExitCode::kInput, "There are no photos with a face for " + to.filename().string() + ".");
@@ -73,9 +51,9 @@ void draw_sheet(const pipeline::Estimator& estimator, const std::vector<fs::path
   for (std::size_t i = 0; i < faces.size(); ++i) {
     const int x = static_cast<int>(i) % kAcross * 3 * kCellPx;
     const int y = static_cast<int>(i) / kAcross * kCellPx;
-    put(faces[i].picture, 1, x, y, sheet);
-    put(faces[i].layers.highlight, kLighten, x + kCellPx, y, sheet);
-    put(faces[i].layers.diffuse, 1, x + 2 * kCellPx, y, sheet);
+    bench::put_cell(faces[i].picture, 1, kCellPx, x, y, sheet);
+    bench::put_cell(faces[i].layers.highlight, kLighten, kCellPx, x + kCellPx, y, sheet);
+    bench::put_cell(faces[i].layers.diffuse, 1, kCellPx, x + 2 * kCellPx, y, sheet);
   }
   io::write_picture(to, sheet);
 }
@@ -87,15 +65,7 @@ struct Flat {
 };
 
 Flat flatten(const pipeline::FaceEstimate& estimate, const train::FaceTemplate& square) {
-  const face::Crop& crop = estimate.geometry.crop;
-  train::WarpLandmarks landmarks{estimate.face.landmarks_px.leftCols<2>(), estimate.face.landmarks_px.col(2)};
-  for (Eigen::Index i = 0; i < landmarks.photo_px.rows(); ++i) {
-    const Eigen::Vector2d at = crop.crop_from_photo(static_cast<double>(landmarks.photo_px(i, 0)),
-                                                    static_cast<double>(landmarks.photo_px(i, 1)));
-    landmarks.photo_px.row(i) = at.cast<float>().transpose();
-  }
-  landmarks.depth_px *= static_cast<float>(crop.scale);
-  const train::Warp warp = train::face_warp(square, landmarks, {crop.width, crop.height});
+  const train::Warp warp = bench::warp_of(estimate, square);
   const Image& layer = estimate.layers.highlight;
   Image grey(layer.width(), layer.height(), 1);
   for (std::size_t i = 0; i < grey.pixel_count(); ++i) grey.data()[i] = luminance(layer.data() + 3 * i);
@@ -129,14 +99,7 @@ double agreement(const Flat& a, const Flat& b, const ByteImage& regions) {
 }
 
 void report_agreement(const fs::path& london, const std::vector<pipeline::EstimateOptions>& settings) {
-  std::map<std::string, std::array<fs::path, 2>> people;
-  int expression = 0;
-  for (const char* folder : {"neutral_front", "smiling_front"}) {
-    for (const fs::path& file : bench::photos_below(london / folder))
-      people[file.stem().string().substr(0, 3)][static_cast<std::size_t>(expression)] = file;
-    ++expression;
-  }
-  if (people.empty()) throw Error(ExitCode::kInput, "There are no people in " + london.string() + ".");
+  const std::map<std::string, std::array<fs::path, 2>> people = bench::london_pairs(london);
   const face::CanonicalMesh mesh = face::load_canonical_mesh(io::data_file("canonical-face-model.obj"));
   const train::FaceTemplate square = train::face_template(mesh, kSquarePx, train::TemplateLayout::kFrontal);
   const ByteImage regions = train::template_regions(square, face::triangle_regions(mesh));
@@ -149,8 +112,8 @@ void report_agreement(const fs::path& london, const std::vector<pipeline::Estima
     std::vector<double> values;
     for (const auto& [id, files] : people) {
       if (files[0].empty() || files[1].empty()) continue;
-      const auto neutral = largest_face(estimator, io::load_photo(files[0]));
-      const auto smiling = largest_face(estimator, io::load_photo(files[1]));
+      const auto neutral = bench::largest_face(estimator, io::load_photo(files[0]));
+      const auto smiling = bench::largest_face(estimator, io::load_photo(files[1]));
       if (!neutral || !smiling) continue;
       const double value = agreement(flatten(*neutral, square), flatten(*smiling, square), regions);
       if (std::isfinite(value)) values.push_back(value);

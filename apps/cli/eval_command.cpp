@@ -35,12 +35,12 @@ int run(const EvalOptions& options) {
 void add_eval(CLI::App& program, Action& action) {
   auto options = std::make_shared<EvalOptions>();
   CLI::App* command = program.add_subcommand("eval", "measures a stage on data whose answer is known");
-  command->add_option("STAGE", options->stage, "what to measure")->required()->check(CLI::IsMember({"highlight", "geometry", "shading"}));
+  command->add_option("STAGE", options->stage, "what to measure")
+      ->required()
+      ->check(CLI::IsMember({"highlight", "geometry", "shading"}));
   command->add_option("--data", options->data, "folder that `faceprobe synth` wrote")->required();
-  command->add_option("--weights", options->weights,
-                      "networks to measure beside what needs none: FILE or NAME=FILE");
-  command->add_option("--samples", options->samples, "photos, spread evenly over the data")
-      ->capture_default_str();
+  command->add_option("--weights", options->weights, "networks to measure beside what needs none: FILE or NAME=FILE");
+  command->add_option("--samples", options->samples, "photos, spread evenly over the data")->capture_default_str();
   command->add_option("-o,--output", options->output, "folder for STAGE.csv, STAGE.json and a picture");
   command->add_option("--rows", options->rows, "photos in that picture")->capture_default_str()->check(CLI::Range(1, 200));
   command->add_option("--device", options->device, "auto, cpu, cuda or cuda:N")->capture_default_str();

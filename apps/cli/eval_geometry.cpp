@@ -17,14 +17,15 @@ namespace {
 eval::GeometryMethod network(const std::string& named, int threads) {
   const auto [name, file] = name_and_file(named);
   auto net = std::make_shared<net::FaceNet>(file, net::FaceNetOptions{.threads = threads});
-  return {name, [net](const eval::GeometryInput& input) -> eval::GeometryEstimate {
-            net::FaceLayers layers = net->layers_both_ways(input.linear, input.clip, input.mask);
+  return {name, [net](const eval::PhotoInput& input) -> eval::GeometryEstimate {
+            net::FaceLayers layers = net->layers_both_ways(input.linear, input.clip, input.mask, input.mesh_normal_cam);
             return {std::move(layers.normal_cam), std::move(layers.normal_error_rad), std::move(layers.region)};
           }};
 }
 
 std::string parts_table(const eval::ScoreTable& table) {
-  constexpr const char* kParts[] = {"forehead", "nose", "cheeks", "upper_lip", "lips", "chin", "jaw", "eyelids", "brows"};
+  constexpr const char* kParts[] = {"forehead", "nose", "cheeks",  "upper_lip", "lips",
+                                    "chin",     "jaw",  "eyelids", "brows"};
   std::string text = "| method |";
   std::string line = "|---|";
   std::vector<std::string> metrics;
@@ -42,7 +43,8 @@ std::string parts_table(const eval::ScoreTable& table) {
   text += "\n" + line + "\n";
   for (const std::string& method : table.methods()) {
     text += "| " + method + " |";
-    for (const std::string& metric : metrics) text += fmt::format(" {:.1f} |", table.summary(metric, {.method = method}).mean);
+    for (const std::string& metric : metrics)
+      text += fmt::format(" {:.1f} |", table.summary(metric, {.method = method}).mean);
     text += "\n";
   }
   return text;
@@ -79,7 +81,8 @@ std::string overlap_table(const eval::GeometryScores& scores) {
     text += "\n";
   }
   text += "| mean |";
-  for (const auto& [method, overlap] : scores.region_overlap) text += fmt::format(" {:.3f} |", scores.mean_overlap(method));
+  for (const auto& [method, overlap] : scores.region_overlap)
+    text += fmt::format(" {:.3f} |", scores.mean_overlap(method));
   text += "\n| all skin |";
   for (const auto& [method, overlap] : scores.skin_overlap) text += fmt::format(" {:.3f} |", overlap);
   return text + "\n";
@@ -87,8 +90,8 @@ std::string overlap_table(const eval::GeometryScores& scores) {
 
 std::string report(const eval::GeometryScores& scores, const EvalOptions& options) {
   const eval::ScoreTable& table = scores.table;
-  std::string text = fmt::format(
-      "{} photos of {}.\n", table.rows().size() / std::max<std::size_t>(1, table.methods().size()), options.data);
+  std::string text = fmt::format("{} photos of {}.\n",
+                                 table.rows().size() / std::max<std::size_t>(1, table.methods().size()), options.data);
   const auto section = [&](const std::string& title, const std::string& body) {
     text += "\n### " + title + "\n\n" + body;
   };
@@ -107,7 +110,7 @@ std::string report(const eval::GeometryScores& scores, const EvalOptions& option
 
 int eval_geometry(const EvalOptions& options) {
   const synth::ShardReader faces(options.data);
-  auto finder = std::make_shared<face::FaceFinder>(face::FinderOptions{.threads = options.threads});
+  auto finder = std::make_shared<face::FaceFinder>(face::FinderOptions{.min_face_px = 30, .threads = options.threads});
   std::vector<eval::GeometryMethod> methods = {eval::mesh_method(finder)};
   for (const std::string& weights : options.weights) methods.push_back(network(weights, options.threads));
   const eval::GeometryScores scores =

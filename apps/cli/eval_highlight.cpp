@@ -4,6 +4,7 @@
 #include "faceprobe/io/atomic_file.h"
 #include "faceprobe/io/picture_file.h"
 #include "faceprobe/net/both_ways.h"
+#include "faceprobe/net/face_net.h"
 #include "faceprobe/net/torch_highlight_net.h"
 
 #include <spdlog/fmt/fmt.h>
@@ -15,17 +16,23 @@ namespace faceprobe::cli {
 namespace {
 
 eval::HighlightMethod classical(highlight::Separator separator, int threads) {
-  return {std::string(highlight::separator_name(separator)),
-          [separator, threads](const Image& linear, const ByteImage&, const ByteImage& mask) {
-            return highlight::separate(linear, mask, {.separator = separator, .threads = threads}).highlight;
+  return {std::string(highlight::separator_name(separator)), [separator, threads](const eval::PhotoInput& input) {
+            return highlight::separate(input.linear, input.mask, {.separator = separator, .threads = threads}).highlight;
           }};
 }
 
 eval::HighlightMethod network(const std::string& named, const net::TorchHighlightNetOptions& options) {
   const auto [name, file] = name_and_file(named);
+  // Both ways, as estimate does.
+  if (net::read_model_info(file).architecture == net::kFaceArchitecture) {
+    auto face = std::make_shared<net::FaceNet>(file, net::FaceNetOptions{.threads = options.threads});
+    return {name, [face](const eval::PhotoInput& input) {
+              return face->layers_both_ways(input.linear, input.clip, input.mask, input.mesh_normal_cam).highlight;
+            }};
+  }
   auto net = std::make_shared<net::TorchHighlightNet>(file, options);
-  return {name, [net](const Image& linear, const ByteImage& clip, const ByteImage& mask) {
-            return net::highlight_both_ways(*net, linear, clip, mask);  // as estimate does
+  return {name, [net](const eval::PhotoInput& input) {
+            return net::highlight_both_ways(*net, input.linear, input.clip, input.mask);
           }};
 }
 

@@ -26,8 +26,8 @@ Image difference(const Image& a, const Image& b) {
 }
 
 eval::ShadingMethod network(const std::string& name, const std::shared_ptr<net::FaceNet>& net) {
-  return {name, [net](const eval::ShadingInput& input) {
-            net::FaceLayers layers = net->layers_both_ways(input.linear, input.clip, input.mask);
+  return {name, [net](const eval::PhotoInput& input) {
+            net::FaceLayers layers = net->layers_both_ways(input.linear, input.clip, input.mask, input.mesh_normal_cam);
             Image albedo = quotient(difference(input.linear, layers.highlight), layers.shading);
             return eval::ShadingEstimate{std::move(albedo), std::move(layers.shading)};
           }};
@@ -35,8 +35,9 @@ eval::ShadingMethod network(const std::string& name, const std::shared_ptr<net::
 
 // lighting/albedo.h on the diffuse layer of the network: one colour a region. It is given the true regions.
 eval::ShadingMethod by_region(const std::string& name, const std::shared_ptr<net::FaceNet>& net) {
-  return {name, [net](const eval::ShadingInput& input) {
-            const Image highlight = net->layers_both_ways(input.linear, input.clip, input.mask).highlight;
+  return {name, [net](const eval::PhotoInput& input) {
+            const Image highlight =
+                net->layers_both_ways(input.linear, input.clip, input.mask, input.mesh_normal_cam).highlight;
             const Image diffuse = difference(input.linear, highlight);
             ByteImage skin = input.region;
             std::replace_if(

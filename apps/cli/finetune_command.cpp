@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <csignal>
+#include <filesystem>
 #include <memory>
 
 namespace faceprobe::cli {
@@ -16,6 +17,7 @@ struct Options {
   std::string start;
   std::string synthetic;
   std::string output;
+  int most_people = 64;
   train::PeopleOptions photos;
   train::FinetuneConfig config;
 };
@@ -26,8 +28,10 @@ int run(Options options) {
   train::FinetuneRun run;
   options.photos.least_photos = options.config.photos;
   options.photos.most_photos = std::max(options.photos.most_photos, options.config.photos);
-  run.people =
-      train::load_people(options.people, options.photos, [](const std::string& text) { spdlog::info("{}", text); });
+  const auto log = [](const std::string& text) { spdlog::info("{}", text); };
+  run.people = std::filesystem::exists(std::filesystem::path(options.people) / "index.json")
+                   ? train::load_synthetic_people(options.people, options.most_people, options.photos, log)
+                   : train::load_people(options.people, options.photos, log);
   run.config = options.config;
   run.start = options.start;
   run.synthetic = options.synthetic;
@@ -60,7 +64,9 @@ void add_finetune(CLI::App& program, Action& action) {
   auto options = std::make_shared<Options>();
   CLI::App* command =
       program.add_subcommand("finetune", "improves the highlight network on photos of people, several of each");
-  command->add_option("--people", options->people, "folder with one folder of photos a person, at any depth")
+  command
+      ->add_option("--people", options->people,
+                   "folder with one folder of photos a person, at any depth, or one that `faceprobe synth` wrote")
       ->required()
       ->check(CLI::ExistingDirectory);
   command->add_option("--start", options->start, "weights to begin with")->required();
@@ -85,13 +91,20 @@ void add_finetune(CLI::App& program, Action& action) {
   command->add_option("--learning-rate", options->config.learning_rate, "AdamW's")->capture_default_str();
   command->add_option("--weight", options->config.weight, "of the people's loss against that on synthetic faces")
       ->capture_default_str();
+  command
+      ->add_option("--energy-weight", options->config.energy_weight,
+                   "within the people's loss, of the hold on each photo's mean highlight")
+      ->capture_default_str();
+  command->add_option("--most-people", options->most_people, "synthetic people at all")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
   command->add_option("--held-out", options->config.held_out_share, "share of the people to measure on")
       ->capture_default_str();
   command->add_option("--seed", options->config.seed, "the same seed gives the same run")->capture_default_str();
   command->add_option("--threads", options->photos.threads, "0 = all processors")->capture_default_str();
   command->footer(
       "Prints a table of people it was not trained on. Weights inherit the terms of the photos.\n\nExample:\n"
-      "  faceprobe finetune --people people --start models/highlight.safetensors --data faces/train -o finetuned");
+      "  faceprobe finetune --people people --start models/face.safetensors --data faces/train -o finetuned");
   command->callback([options, &action] { action = [options] { return run(*options); }; });
 }
 

@@ -54,6 +54,7 @@ int main(int argc, char** argv) {
   cli::add_info(program, action);
 #ifdef FACEPROBE_HAS_SYNTH
   cli::add_synth(program, action);
+  cli::add_mesh(program, action);
 #endif
 #ifdef FACEPROBE_HAS_TRAIN
   cli::add_train(program, action);

@@ -124,8 +124,10 @@ pipeline::EstimateOptions estimate_options(const SharedOptions& options) {
     if (!options.weights.empty())
       throw Error(ExitCode::kUsage, "--weights are the network's; --separator " + options.separator + " takes none.");
   }
-  out.normals = one_of(options.geometry, "--geometry", "net", pipeline::NormalSource::kNet, "mesh", pipeline::NormalSource::kMesh);
-  out.shading = one_of(options.shading, "--shading", "net", pipeline::ShadingSource::kNet, "regions", pipeline::ShadingSource::kRegions);
+  out.normals = one_of(options.geometry, "--geometry", "net", pipeline::NormalSource::kNet, "mesh",
+                       pipeline::NormalSource::kMesh);
+  out.shading = one_of(options.shading, "--shading", "net", pipeline::ShadingSource::kNet, "regions",
+                       pipeline::ShadingSource::kRegions);
   out.solve.solver = lighting::solver_from_name(options.solver);
   out.solve.iterations = options.iterations;
   out.map_width = parse_map_width(options.size);

@@ -104,15 +104,14 @@ struct Setting {
   pipeline::Estimator estimator;
 };
 
-std::vector<Setting> settings(const std::filesystem::path& weights) {
+std::vector<Setting> settings(const pipeline::EstimateOptions& base) {
   std::vector<Setting> all;
   for (const Solver solver : {Solver::kTransport, Solver::kPaper}) {
     for (const std::optional<Separator> classical : {std::optional<Separator>(), std::optional(Separator::kTan),
                                                      std::optional(Separator::kYang), std::optional(Separator::kShen)}) {
-      pipeline::EstimateOptions options;
+      pipeline::EstimateOptions options = base;
       options.solve.solver = solver;
       options.classical = classical;
-      options.weights = weights;
       all.push_back(
           {std::string(lighting::solver_name(solver)) + ", " + options.separator_name(), pipeline::Estimator(options)});
     }
@@ -121,8 +120,7 @@ std::vector<Setting> settings(const std::filesystem::path& weights) {
   for (const NormalSource normals : {NormalSource::kMesh, NormalSource::kNet}) {
     for (const ShadingSource shading : {ShadingSource::kRegions, ShadingSource::kNet}) {
       if (normals == NormalSource::kNet && shading == ShadingSource::kNet) continue;  // the first row
-      pipeline::EstimateOptions options;
-      options.weights = weights;
+      pipeline::EstimateOptions options = base;
       options.normals = normals;
       options.shading = shading;
       all.push_back({std::string("transport, net, normals of the ") + (normals == NormalSource::kNet ? "net" : "mesh") +
@@ -150,10 +148,10 @@ std::optional<Measured> measure(const pipeline::Estimator& estimator, const io::
 
 }  // namespace
 
-void report_london(const std::filesystem::path& folder, int every, const std::filesystem::path& weights) {
+void report_london(const std::filesystem::path& folder, int every, const pipeline::EstimateOptions& base) {
   const std::vector<Eigen::Vector3d> truth = read_lights(folder / "lights_from_catchlights.json");
   const std::vector<Person> people = every_nth(people_in(folder), every);
-  const std::vector<Setting> all = settings(weights);
+  const std::vector<Setting> all = settings(base);
   // What no look at the photo gives: a light straight ahead.
   const Measured ahead{{Eigen::Vector3d::UnitZ()}, Eigen::Vector3d::UnitZ()};
   const std::vector<Measured> aheads(people.size(), ahead);

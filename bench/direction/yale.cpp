@@ -110,7 +110,7 @@ struct Setting {
 
 }  // namespace
 
-void report_yale(const std::filesystem::path& folder, int every, const std::filesystem::path& weights) {
+void report_yale(const std::filesystem::path& folder, int every, const pipeline::EstimateOptions& base) {
   const std::vector<Picture> pictures = every_nth(pictures_of(folder), every);
   Row straight{"straight ahead, no estimate", {}, {}};
   for (const Picture& picture : pictures) straight.add(picture, Eigen::Vector3d::UnitZ());
@@ -121,10 +121,9 @@ void report_yale(const std::filesystem::path& folder, int every, const std::file
         Setting{lighting::Solver::kTransport, highlight::Separator::kYang, true, "transport, classical"},
         Setting{lighting::Solver::kPaper, {}, true, "paper, net"},
         Setting{lighting::Solver::kTransport, {}, false, "transport, net, codes taken for sRGB"}}) {
-    pipeline::EstimateOptions options;
+    pipeline::EstimateOptions options = base;
     options.solve.solver = setting.solver;
     options.classical = setting.classical;
-    options.weights = weights;
     options.landmarks_px = fixed_landmarks();
     const pipeline::Estimator estimator(options);
     Row lamp{"single lamp by least squares" + std::string(setting.linear ? "" : ", codes taken for sRGB"), {}, {}};

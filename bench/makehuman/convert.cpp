@@ -2,12 +2,16 @@
 
 #include "cycles/passes.h"
 #include "faceprobe/core/color.h"
+#include "faceprobe/core/error.h"
 #include "faceprobe/core/region.h"
+#include "faceprobe/face/geometry.h"
 #include "faceprobe/synth/photo_layers.h"
 #include "synth/generate/light_sample_draw.h"
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
 
 namespace faceprobe::bench {
 namespace {
@@ -18,12 +22,17 @@ Eigen::Map<const Eigen::Vector3f> colour(const Image& image, std::size_t pixel) 
 
 struct Layers {
   Image highlight, diffuse, albedo;
+  Image normal_world;
   ByteImage skin;  // 1 where a pixel is skin through and through
 };
 
 Layers read_layers(const std::filesystem::path& path) {
   const PassFile file(path);
-  Layers layers{file.pass("GlossDir", "RGB"), file.pass("Combined", "RGB"), file.pass("DiffCol", "RGB"), {}};
+  Layers layers{file.pass("GlossDir", "RGB"),
+                file.pass("Combined", "RGB"),
+                file.pass("DiffCol", "RGB"),
+                file.pass("Normal", "XYZ"),
+                {}};
   const Image indirect = file.pass("GlossInd", "RGB");
   const Image reflectance = file.pass("GlossCol", "RGB");
   const Image index = file.pass("IndexMA", "X");
@@ -70,10 +79,57 @@ void scale(const Eigen::Vector3f& gain, Image& image) {
   for (std::size_t i = 0; i < image.values().size(); ++i) image.data()[i] *= gain(static_cast<Eigen::Index>(i % 3));
 }
 
+struct TrueCamera {
+  float focal_px = 0;
+  Eigen::Matrix3f camera_from_world;
+};
+
+TrueCamera read_camera(std::filesystem::path path) {
+  path.replace_extension(".json");
+  std::ifstream file(path);
+  const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
+  if (!json.is_object()) throw Error(ExitCode::kModel, "Blender left no camera " + path.string() + ".");
+  TrueCamera camera;
+  camera.focal_px = json.at("focal_px").get<float>();
+  for (Eigen::Index row = 0; row < 3; ++row) {
+    for (Eigen::Index column = 0; column < 3; ++column)
+      camera.camera_from_world(column, row) =
+          json.at("world_from_camera").at(static_cast<std::size_t>(row)).at(static_cast<std::size_t>(column)).get<float>();
+  }
+  return camera;
+}
+
+// Where Cycles says a pixel is skin all through, and its pass is a direction.
+Image normals(const Layers& layers, const TrueCamera& camera) {
+  Image normal(layers.skin.width(), layers.skin.height(), 3);
+  for (std::size_t i = 0; i < layers.skin.pixel_count(); ++i) {
+    const Eigen::Vector3f world = colour(layers.normal_world, i);
+    if (layers.skin.data()[i] == 0 || !world.allFinite() || world.norm() < 0.5F) continue;
+    Eigen::Map<Eigen::Vector3f>(normal.data() + 3 * i) = camera.camera_from_world * world.normalized();
+  }
+  return normal;
+}
+
+Image quotient(const Image& diffuse, const Image& albedo) {
+  constexpr float kLeast = 0.01F;
+  Image shading(diffuse.width(), diffuse.height(), 3);
+  for (std::size_t i = 0; i < shading.values().size(); ++i) {
+    if (albedo.data()[i] > kLeast) shading.data()[i] = diffuse.data()[i] / albedo.data()[i];
+  }
+  return shading;
+}
+
+// The mesh knows eyes, lips and brows where Cycles has skin and little else.
+Region region_of(bool skin, bool inside, std::uint8_t mesh) {
+  if (!skin) return Region::kNone;
+  if (!inside) return Region::kOther;
+  return mesh == 0 || mesh >= static_cast<std::uint8_t>(Region::kOther) ? Region::kCheeks : static_cast<Region>(mesh);
+}
+
 }  // namespace
 
 std::optional<synth::ViewSamples> convert(const std::filesystem::path& picture, const face::FaceFinder& finder,
-                                          std::uint64_t seed, int number) {
+                                          const face::CanonicalMesh& mesh, std::uint64_t seed, int number) {
   Layers layers = read_layers(picture);
   const int width = layers.skin.width();
   const int height = layers.skin.height();
@@ -87,14 +143,16 @@ std::optional<synth::ViewSamples> convert(const std::filesystem::path& picture, 
   for (std::size_t i = 0; i < radiance.values().size(); ++i) radiance.data()[i] += layers.highlight.data()[i];
   const synth::SensorPicture photo = synth::take_picture(radiance, draw.sensor, random);
 
-  const face::Camera camera{.focal_px = 1.5 * width, .centre_x_px = width / 2.0, .centre_y_px = height / 2.0};
+  const TrueCamera true_camera = read_camera(picture);
+  const face::Camera camera{
+      .focal_px = static_cast<double>(true_camera.focal_px), .centre_x_px = width / 2.0, .centre_y_px = height / 2.0};
   const std::vector<face::Face> faces = finder.find(decode_srgb(photo.photo), camera);
   if (faces.empty()) return std::nullopt;
   const auto largest = std::max_element(faces.begin(), faces.end(),
                                         [](const auto& a, const auto& b) { return a.box.width < b.box.width; });
   synth::ViewSamples out;
   synth::ViewLayers& view = out.view;
-  view.normal = Image(width, height, 3);
+  view.normal = normals(layers, true_camera);
   view.depth_m = Image(width, height, 1);
   view.region = ByteImage(width, height, 1);
   view.owner = layers.skin;
@@ -104,17 +162,18 @@ std::optional<synth::ViewSamples> convert(const std::filesystem::path& picture, 
   view.faces[0].dense_landmarks_px = largest->landmarks_px.leftCols(2);
   view.faces[0].person = number;
   const ByteImage inside = synth::face_mask(view, 1.0F);
-  for (std::size_t i = 0; i < inside.pixel_count(); ++i) {
-    const Region skin = inside.data()[i] != 0 ? Region::kCheeks : Region::kOther;
-    view.region.data()[i] = static_cast<std::uint8_t>(layers.skin.data()[i] != 0 ? skin : Region::kNone);
-  }
+  const face::Crop whole{.x_px = 0, .y_px = 0, .scale = 1, .width = width, .height = height};
+  const ByteImage mesh_regions = face::rasterize_regions(*largest, camera, mesh, whole);
+  for (std::size_t i = 0; i < inside.pixel_count(); ++i)
+    view.region.data()[i] =
+        static_cast<std::uint8_t>(region_of(layers.skin.data()[i] != 0, inside.data()[i] != 0, mesh_regions.data()[i]));
   synth::Sample& sample = out.samples.emplace_back();
   sample.photo = photo.photo;
   sample.clip = photo.clip;
   sample.highlight = std::move(layers.highlight);
   sample.diffuse = std::move(layers.diffuse);
   sample.albedo = std::move(layers.albedo);
-  sample.shading = Image(width, height, 3);
+  sample.shading = quotient(sample.diffuse, sample.albedo);
   sample.environment = EnvMap(4, 2);
   sample.settings_json = "{}";
   return out;

@@ -3,8 +3,9 @@
     blender --background --factory-startup --python-exit-code 1 --python render_people.py -- job.json
 
 The job: {"package", "maps": [...], "count", "size", "samples", "seed", "threads", "folder"}. Each picture NNNN.exr in "folder" has the
-passes Combined, DiffDir, DiffInd, DiffCol, GlossDir, GlossInd, GlossCol, Normal and IndexMA (1 = skin); pictures that are there are
-left alone, so a run that was stopped goes on.
+passes Combined, DiffDir, DiffInd, DiffCol, GlossDir, GlossInd, GlossCol, Normal (in the world) and IndexMA (1 = skin). NNNN.json beside
+it has the camera: "focal_px", and "world_from_camera", 3 x 3, of a camera that looks along -z with y up. What is there is left alone, so
+a run that was stopped goes on.
 """
 
 import json
@@ -108,6 +109,8 @@ def set_camera(scene, eyes, rng):
     camera.rotation_euler = (turn @ mathutils.Quaternion((0, 0, 1), roll)).to_euler()
     scene.collection.objects.link(camera)
     scene.camera = camera
+    rotation = camera.rotation_euler.to_matrix()
+    return {"focal_over_width": data.lens / data.sensor_width, "world_from_camera": [list(row) for row in rotation]}
 
 
 def set_world(scene, path, yaw):
@@ -131,7 +134,14 @@ PASSES = ("diffuse_direct", "diffuse_indirect", "diffuse_color", "glossy_direct"
           "material_index")
 
 
-def render(job, store, number):
+def write_whole(path, text):
+    part = path.with_suffix(".part")
+    part.write_text(text)
+    part.rename(path)
+
+
+def make(job, store, number):
+    """The scene, and the camera's file beside the picture."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
     scene.world = bpy.data.worlds.new("world")
@@ -141,8 +151,15 @@ def render(job, store, number):
     look = {"roughness": rng.uniform(0.22, 0.4), "strength": rng.uniform(0.5, 1.5)}
     for part in store.parts(person):
         place(part, look)
-    set_camera(scene, middle_of_head(store, store.shape(person)), rng)
+    camera = set_camera(scene, middle_of_head(store, store.shape(person)), rng)
     set_world(scene, rng.choice(job["maps"]), rng.uniform(0, 2 * math.pi))
+    camera["focal_px"] = job["size"] * camera.pop("focal_over_width")
+    write_whole(pathlib.Path(job["folder"]) / f"{number:04}.json", json.dumps(camera))
+    return scene
+
+
+def render(job, store, number):
+    scene = make(job, store, number)
     plain_cycles(scene, job["size"], job["size"], job["threads"], PASSES)
     scene.cycles.samples = job["samples"]
     scene.cycles.max_bounces = 3
@@ -160,8 +177,11 @@ def main():
     package = pathlib.Path(job["package"])
     store = Store(package / "public" / "data", package / "src" / "json")
     for number in range(job["count"]):
-        if not (pathlib.Path(job["folder"]) / f"{number:04}.exr").exists():
+        picture = pathlib.Path(job["folder"]) / f"{number:04}.exr"
+        if not picture.exists():
             render(job, store, number)
+        elif not picture.with_suffix(".json").exists():
+            make(job, store, number)
 
 
 main()

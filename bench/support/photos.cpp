@@ -1,5 +1,7 @@
 #include "support/photos.h"
 
+#include "faceprobe/core/error.h"
+
 #include <algorithm>
 
 namespace faceprobe::bench {
@@ -27,6 +29,18 @@ std::string without_folder(std::string text, const std::filesystem::path& folder
     text.replace(at, mention.size(), name);
   }
   return text;
+}
+
+std::map<std::string, std::array<std::filesystem::path, 2>> london_pairs(const std::filesystem::path& london) {
+  std::map<std::string, std::array<std::filesystem::path, 2>> people;
+  std::size_t expression = 0;
+  for (const char* folder : {"neutral_front", "smiling_front"}) {
+    for (const std::filesystem::path& file : photos_below(london / folder))
+      people[file.stem().string().substr(0, 3)][expression] = file;
+    ++expression;
+  }
+  if (people.empty()) throw Error(ExitCode::kInput, "There are no people in " + london.string() + ".");
+  return people;
 }
 
 }  // namespace faceprobe::bench

@@ -16,16 +16,6 @@ namespace {
 
 constexpr int kLeastPixels = 20;  // of a part of the face
 
-GeometryInput input_of(const SyntheticPhoto& photo) {
-  return {photo.layers.linear,
-          photo.sample.photo,
-          photo.sample.clip,
-          photo.face,
-          {.focal_px = static_cast<double>(photo.view.focal_px),
-           .centre_x_px = static_cast<double>(photo.view.centre_px.x()),
-           .centre_y_px = static_cast<double>(photo.view.centre_px.y())}};
-}
-
 Eigen::Vector3f vector_at(const Image& image, std::size_t pixel) {
   return Eigen::Map<const Eigen::Vector3f>(image.data() + 3 * pixel);
 }
@@ -196,7 +186,7 @@ GeometryScores measure_geometry(const synth::ShardReader& faces, const std::vect
     if (photo.enough_skin()) {
       std::vector<GeometryEstimate> found;
       found.reserve(methods.size());
-      for (const GeometryMethod& method : methods) found.push_back(method.find(input_of(photo)));
+      for (const GeometryMethod& method : methods) found.push_back(method.find(photo.input()));
       const ByteImage judged = judged_pixels(photo, found);
       for (std::size_t m = 0; m < methods.size(); ++m)
         scores.table.add(row_of(methods[m], number, photo, found[m], judged, gathered[m]));
@@ -225,7 +215,7 @@ ByteImage draw_geometry(const synth::ShardReader& faces, const std::vector<Geome
     const int width = photo.sample.photo.width();
     const int height = photo.sample.photo.height();
     for (const GeometryMethod& method : methods) {
-      const GeometryEstimate found = method.find(input_of(photo));
+      const GeometryEstimate found = method.find(photo.input());
       cells.push_back(found.normal_cam.empty() ? ByteImage(width, height, 3) : normals_picture(found.normal_cam));
       cells.push_back(found.region.empty() ? ByteImage(width, height, 3) : regions_picture(found.region));
     }

@@ -1,9 +1,9 @@
 #include "faceprobe/eval/highlight_benchmark.h"
 
+#include "eval/synthetic_photo.h"
 #include "faceprobe/core/color.h"
 #include "faceprobe/core/error.h"
 #include "faceprobe/eval/image_metrics.h"
-#include "eval/synthetic_photo.h"
 
 #include <algorithm>
 #include <cmath>
@@ -39,9 +39,7 @@ Image picture_times(const Image& image, float factor) {
 }  // namespace
 
 HighlightMethod black_method() {
-  return {"black layer", [](const Image& linear, const ByteImage&, const ByteImage&) {
-            return Image(linear.width(), linear.height(), 3);
-          }};
+  return {"black layer", [](const PhotoInput& input) { return Image(input.linear.width(), input.linear.height(), 3); }};
 }
 
 std::string HighlightBenchmark::validate() const {
@@ -64,8 +62,8 @@ ScoreTable measure_highlights(const synth::ShardReader& faces, const std::vector
     if (photo.enough_skin()) {
       const std::map<std::string, std::string> groups = groups_of(photo);
       for (const HighlightMethod& method : methods) {
-        const Image masked = method.highlight(photo.layers.linear, photo.sample.clip, photo.face);
-        const Image whole = method.highlight(photo.layers.linear, photo.sample.clip, {});
+        const Image masked = method.highlight(photo.input());
+        const Image whole = method.highlight(photo.whole_input());
         const Image& truth = photo.layers.highlight;
         table.add({method.name,
                    std::to_string(number),
@@ -89,7 +87,7 @@ ByteImage draw_highlights(const synth::ShardReader& faces, const std::vector<Hig
     std::vector<Image> columns = {photo.layers.linear, picture_times(photo.layers.highlight, 2.0F)};
     columns.reserve(2 + methods.size());
     for (const HighlightMethod& method : methods)
-      columns.push_back(picture_times(method.highlight(photo.layers.linear, photo.sample.clip, {}), 2.0F));
+      columns.push_back(picture_times(method.highlight(photo.whole_input()), 2.0F));
     const int width = photo.layers.linear.width();
     const int height = photo.layers.linear.height();
     if (sheet.empty()) sheet = ByteImage(static_cast<int>(columns.size()) * width, rows * height, 3);

@@ -7,9 +7,9 @@
 namespace faceprobe::eval {
 
 GeometryMethod mesh_method(std::shared_ptr<const face::FaceFinder> finder) {
-  auto mesh = std::make_shared<const face::CanonicalMesh>(
-      face::load_canonical_mesh(io::data_file("canonical-face-model.obj")));
-  return {"mesh", [finder = std::move(finder), mesh](const GeometryInput& input) -> GeometryEstimate {
+  auto mesh =
+      std::make_shared<const face::CanonicalMesh>(face::load_canonical_mesh(io::data_file("canonical-face-model.obj")));
+  return {"mesh", [finder = std::move(finder), mesh](const PhotoInput& input) -> GeometryEstimate {
             const std::vector<face::Face> found = finder->find(input.linear, input.camera);
             if (found.empty()) return {};
             const auto largest = std::max_element(found.begin(), found.end(), [](const auto& a, const auto& b) {

@@ -15,7 +15,8 @@ ByteImage judged_pixels(const SyntheticPhoto& photo) {
   ByteImage judged = photo.skin;
   for (std::size_t i = 0; i < judged.values().size(); ++i) {
     const float* shading = photo.sample.shading.data() + 3 * i;
-    if (photo.sample.clip.data()[i] != 0 || std::min({shading[0], shading[1], shading[2]}) < kDark) judged.data()[i] = 0;
+    if (photo.sample.clip.data()[i] != 0 || std::min({shading[0], shading[1], shading[2]}) < kDark)
+      judged.data()[i] = 0;
   }
   return judged;
 }
@@ -37,7 +38,7 @@ double colour_error_deg(const Image& estimate, const Image& truth, const ByteIma
 }  // namespace
 
 ShadingMethod one_albedo_method() {
-  return {"one albedo", [](const ShadingInput& input) {
+  return {"one albedo", [](const PhotoInput& input) {
             return ShadingEstimate{Image(input.linear.width(), input.linear.height(), 3, 0.35F), input.linear};
           }};
 }
@@ -77,8 +78,7 @@ ScoreTable measure_shading(const synth::ShardReader& faces, const std::vector<Sh
     if (photo.enough_skin()) {
       const ByteImage judged = judged_pixels(photo);
       for (const ShadingMethod& method : methods) {
-        const ShadingEstimate found =
-            method.split({photo.layers.linear, photo.sample.clip, photo.face, photo.view.region});
+        const ShadingEstimate found = method.split(photo.input());
         table.add({method.name,
                    std::to_string(number),
                    {{"tone", photo.tone()}},

@@ -1,5 +1,6 @@
 #include "eval/synthetic_photo.h"
 
+#include "faceprobe/core/region.h"
 #include "faceprobe/eval/skin_tone.h"
 
 #include <algorithm>
@@ -9,7 +10,32 @@ namespace faceprobe::eval {
 SyntheticPhoto::SyntheticPhoto(const synth::ShardReader& faces, int number)
     : sample(faces.copy_sample(number)), view(faces.copy_view(number)), layers(synth::photo_layers(sample)),
       face(synth::face_mask(view, 1.0F)), skin(synth::skin_mask(view)) {
+  if (faces.has_meshes()) {
+    synth::FoundMesh found = faces.copy_mesh(number);
+    const auto is_skin = [](std::uint8_t region) { return region >= 1 && region <= kSkinRegionCount; };
+    const bool seen = std::ranges::any_of(found.region.values(), is_skin);
+    std::ranges::transform(found.region.values(), face.values().begin(),
+                           [&](std::uint8_t region) { return static_cast<std::uint8_t>(!seen || is_skin(region)); });
+    mesh = std::move(found.normal_cam);
+  }
   for (std::size_t i = 0; i < skin.values().size(); ++i) skin.data()[i] = skin.data()[i] & face.data()[i];
+}
+
+PhotoInput SyntheticPhoto::input() const {
+  return {layers.linear,
+          sample.photo,
+          sample.clip,
+          face,
+          mesh,
+          view.region,
+          {.focal_px = static_cast<double>(view.focal_px),
+           .centre_x_px = static_cast<double>(view.centre_px.x()),
+           .centre_y_px = static_cast<double>(view.centre_px.y())}};
+}
+
+PhotoInput SyntheticPhoto::whole_input() const {
+  const PhotoInput given = input();
+  return {given.linear, given.photo, given.clip, no_mask_, no_mesh_, given.region, given.camera};
 }
 
 double SyntheticPhoto::skin_share() const {

@@ -1,6 +1,7 @@
 #pragma once
 // Internal: a synthetic photo as the benchmarks see it: what a method is given, and where it is judged.
 
+#include "faceprobe/eval/photo_input.h"
 #include "faceprobe/synth/photo_layers.h"
 #include "faceprobe/synth/shard.h"
 
@@ -15,14 +16,22 @@ struct SyntheticPhoto {
   synth::ViewLayers view;
   synth::PhotoLayers layers;
   ByteImage face;  // mask that the method is given
+  Image mesh;      // and the mesh's normals
   ByteImage skin;  // where it is judged: the face's own skin inside that mask
 
   SyntheticPhoto(const synth::ShardReader& faces, int number);
 
+  PhotoInput input() const;
+  // The same without a mask and a mesh.
+  PhotoInput whole_input() const;
   double skin_share() const;  // of the crop
   bool enough_skin() const;   // to judge by: 5 %
   // The skin's tone from the true albedo (skin_tone.h).
   std::string tone() const;
+
+ private:
+  ByteImage no_mask_;
+  Image no_mesh_;
 };
 
 // Evenly over the data set.

@@ -1,5 +1,6 @@
 #include "net/face_layers.h"
 
+#include "faceprobe/core/color.h"
 #include "faceprobe/core/mirror.h"
 #include "net/face_outputs.h"
 #include "net/head.h"
@@ -7,6 +8,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace faceprobe::net {
 namespace {
@@ -25,7 +27,8 @@ Eigen::Vector3f normal_of(const float* raw) {
 Eigen::Array3f shading_of(const float* raw) {
   Eigen::Array3f colour;
   for (int c = 0; c < 3; ++c)
-    colour[c] = softplus(limited(raw[Out::kShading + 1 + c], Head::kLargestRaw)) + static_cast<float>(Head::kColourFloor);
+    colour[c] =
+        softplus(limited(raw[Out::kShading + 1 + c], Head::kLargestRaw)) + static_cast<float>(Head::kColourFloor);
   return std::exp(limited(raw[Out::kShading], Out::kLargestLog)) * colour / colour.mean();
 }
 
@@ -37,7 +40,32 @@ Image mean_of(const Image& a, const Image& b) {
 
 }  // namespace
 
-FaceLayers surface_of_raw(const Image& raw, int width, int height) {
+FaceInputPicture face_input(const PaddedPicture& picture, const Image& mesh) {
+  double sum = 0;
+  double count = 0;
+  const bool masked = std::ranges::any_of(picture.mask.values(), [](float m) { return m > 0; });
+  for (std::size_t i = 0; i < picture.mask.values().size(); ++i) {
+    if (masked && picture.mask.data()[i] == 0) continue;
+    sum += std::clamp(static_cast<double>(luminance(picture.linear.data() + 3 * i)), 0.0, Head::kBrightest);
+    ++count;
+  }
+  const double mean = sum / std::max(1.0, count);
+  const auto gain = static_cast<float>(FaceInputs::kMiddle / std::max(FaceInputs::kDarkest, mean));
+  PaddedPicture scaled = picture;
+  for (float& light : scaled.linear.values()) light *= gain;
+  const Image plain = network_input(scaled);
+  FaceInputPicture input{Image(plain.width(), plain.height(), FaceInputs::kCount), gain};
+  for (int y = 0; y < plain.height(); ++y) {
+    for (int x = 0; x < plain.width(); ++x) {
+      float* to = std::copy_n(plain.pixel(x, y), kInputChannels, input.channels.pixel(x, y));
+      if (mesh.empty()) continue;
+      std::copy_n(mesh.pixel(std::min(x, mesh.width() - 1), std::min(y, mesh.height() - 1)), 3, to);
+    }
+  }
+  return input;
+}
+
+FaceLayers surface_of_raw(const Image& raw, float gain, int width, int height) {
   FaceLayers layers{.highlight = {},
                     .normal_cam = Image(width, height, 3),
                     .normal_error_rad = Image(width, height, 1),
@@ -48,7 +76,7 @@ FaceLayers surface_of_raw(const Image& raw, int width, int height) {
     for (int x = 0; x < width; ++x) {
       const float* from = raw.pixel(x, y);
       Eigen::Map<Eigen::Vector3f>(layers.normal_cam.pixel(x, y)) = normal_of(from);
-      Eigen::Map<Eigen::Array3f>(layers.shading.pixel(x, y)) = shading_of(from);
+      Eigen::Map<Eigen::Array3f>(layers.shading.pixel(x, y)) = shading_of(from) / gain;
       layers.normal_error_rad(x, y) =
           static_cast<float>(Out::kUsualError) * std::exp(limited(from[Out::kSpread], Out::kLargestLog));
       layers.depth_m(x, y) = static_cast<float>(Out::kDepthUnit) * from[Out::kDepth];
@@ -73,10 +101,15 @@ FaceLayers mean_of(const FaceLayers& a, const FaceLayers& b) {
   return mean;
 }
 
+Image mirrored_normals(Image normals) {
+  mirror(normals);
+  for (std::size_t i = 0; i < normals.values().size(); i += 3) normals.data()[i] *= -1;
+  return normals;
+}
+
 void mirror(FaceLayers& layers) {
   mirror(layers.highlight);
-  mirror(layers.normal_cam);
-  for (std::size_t i = 0; i < layers.normal_cam.values().size(); i += 3) layers.normal_cam.data()[i] *= -1;
+  layers.normal_cam = mirrored_normals(std::move(layers.normal_cam));
   mirror(layers.normal_error_rad);
   mirror(layers.depth_m);
   mirror(layers.shading);

@@ -12,6 +12,7 @@
 #include "net/unet_runner.h"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 namespace faceprobe::net {
@@ -56,7 +57,7 @@ FaceNet::FaceNet(const std::filesystem::path& weights, const FaceNetOptions& opt
                                       "; a face's layers come from face. Use weights made for it.");
   }
   WeightList list(file);
-  UNetRunner runner(separator_options(info.options_json, FaceOutputs::kCount), list);
+  UNetRunner runner(separator_options(info.options_json, FaceInputs::kCount, FaceOutputs::kCount), list);
   list.finish();
   impl_ = std::make_unique<Impl>(Impl{options.threads, std::move(info), std::move(runner)});
 }
@@ -67,19 +68,22 @@ FaceNet::~FaceNet() = default;
 
 const ModelInfo& FaceNet::info() const { return impl_->info; }
 
-FaceLayers FaceNet::layers(const Image& linear, const ByteImage& clip, const ByteImage& mask) const {
+FaceLayers FaceNet::layers(const Image& linear, const ByteImage& clip, const ByteImage& mask, const Image& mesh) const {
   check_sizes(linear, clip, mask);
+  if (!mesh.empty() && (mesh.channels() != 3 || mesh.width() != linear.width() || mesh.height() != linear.height()))
+    throw std::invalid_argument("The mesh's normals must have three channels and the picture's size");
   const int width = linear.width();
   const int height = linear.height();
   if (linear.empty()) {
-    FaceLayers none = surface_of_raw({}, width, height);
+    FaceLayers none = surface_of_raw({}, 1, width, height);
     none.highlight = Image(width, height, 3);
     return none;
   }
   const ThreadCount threads(impl_->threads);
   const PaddedPicture picture = pad_picture(linear, clip, mask, impl_->net.options().multiple());
-  const Image raw = impl_->net(network_input(picture));
-  FaceLayers layers = surface_of_raw(raw, width, height);
+  const FaceInputPicture input = face_input(picture, mesh);
+  const Image raw = impl_->net(input.channels);
+  FaceLayers layers = surface_of_raw(raw, input.gain, width, height);
   layers.highlight = top_left(highlight_of_raw(raw, picture.linear), width, height);
   const bool grey = is_grey(picture.linear);
   keep_within(layers.highlight, picture.linear, mask, grey);
@@ -87,10 +91,11 @@ FaceLayers FaceNet::layers(const Image& linear, const ByteImage& clip, const Byt
   return layers;
 }
 
-FaceLayers FaceNet::layers_both_ways(const Image& linear, const ByteImage& clip, const ByteImage& mask) const {
-  FaceLayers other = layers(mirrored(linear), mirrored(clip), mirrored(mask));
+FaceLayers FaceNet::layers_both_ways(const Image& linear, const ByteImage& clip, const ByteImage& mask,
+                                     const Image& mesh) const {
+  FaceLayers other = layers(mirrored(linear), mirrored(clip), mirrored(mask), mirrored_normals(mesh));
   mirror(other);
-  return mean_of(layers(linear, clip, mask), other);
+  return mean_of(layers(linear, clip, mask, mesh), other);
 }
 
 }  // namespace faceprobe::net

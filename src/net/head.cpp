@@ -21,12 +21,12 @@ float smooth_min(float b, float light) {
 
 }  // namespace
 
-UNetOptions separator_options(const std::string& json, int outputs) {
+UNetOptions separator_options(const std::string& json, int inputs, int outputs) {
   UNetOptions options = unet_options_from_json(json);
-  if (options.in_channels != kInputChannels || options.out_channels != outputs) {
+  if (options.in_channels != inputs || options.out_channels != outputs) {
     throw Error(ExitCode::kModel, "The weights are of a network with " + std::to_string(options.in_channels) +
                                       " channels in and " + std::to_string(options.out_channels) +
-                                      " out; its kind has " + std::to_string(kInputChannels) + " and " +
+                                      " out; its kind has " + std::to_string(inputs) + " and " +
                                       std::to_string(outputs) + ". Use weights made for it.");
   }
   return options;

@@ -26,8 +26,8 @@ struct Head {
   static constexpr double kTiny = 1e-30;        // 0 / 0 becomes 0
 };
 
-// Options of a network that takes the channels above and gives `outputs`, the first of which are those. Throws Error(kModel).
-UNetOptions separator_options(const std::string& json, int outputs);
+// Options of a network with so many inputs and outputs. Throws Error(kModel).
+UNetOptions separator_options(const std::string& json, int inputs = kInputChannels, int outputs = kRawChannels);
 
 float softplus(float x);
 

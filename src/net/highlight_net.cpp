@@ -3,7 +3,6 @@
 #include "faceprobe/core/error.h"
 #include "faceprobe/io/safetensors.h"
 #include "io/safetensors_header.h"
-#include "net/face_outputs.h"
 #include "net/head.h"
 #include "net/model_info.h"
 #include "net/padded_picture.h"
@@ -16,13 +15,12 @@ namespace faceprobe::net {
 namespace {
 
 UNetRunner make_runner(const ModelInfo& info, const io::TensorFile& file) {
-  if (info.architecture != kUNetArchitecture && info.architecture != kFaceArchitecture) {
+  if (info.architecture != kUNetArchitecture) {
     throw Error(ExitCode::kModel, "The weights are of a network " + io::quoted(info.architecture) +
-                                      "; highlights are taken off by unet and face. Use weights made for one of them.");
+                                      "; highlights alone are taken off by unet. Use weights made for it.");
   }
   WeightList weights(file);
-  const int outputs = info.architecture == kFaceArchitecture ? FaceOutputs::kCount : kRawChannels;
-  UNetRunner runner(separator_options(info.options_json, outputs), weights);
+  UNetRunner runner(separator_options(info.options_json), weights);
   weights.finish();
   return runner;
 }

@@ -1,6 +1,5 @@
 #include "pipeline/apply_surface.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 
 namespace faceprobe::pipeline {
@@ -8,9 +7,7 @@ namespace faceprobe::pipeline {
 void apply_normals(const Surface& surface, face::FaceGeometry& geometry) {
   const int width = geometry.region.width();
   const int height = geometry.region.height();
-  const Eigen::Vector3f middle(geometry.view_cam.pixel(width / 2, height / 2));
-  const Eigen::Matrix3f turn =
-      Eigen::Quaternionf::FromTwoVectors(Eigen::Vector3f::UnitZ(), middle).toRotationMatrix();
+  const Eigen::Matrix3f turn = camera_from_network(geometry);
   geometry.normal_error_rad = surface.normal_error_rad;
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {

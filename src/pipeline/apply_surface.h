@@ -6,7 +6,7 @@
 namespace faceprobe::pipeline {
 
 // Where the mesh covers the face: the network's normals, their errors, and its regions, so that hair, glasses and hands before the face
-// are no skin. The network looks along the axis of a camera of its own; the normals are turned to where the face is seen.
+// are no skin.
 void apply_normals(const Surface& surface, face::FaceGeometry& geometry);
 
 struct AlbedoShading {

@@ -34,6 +34,17 @@ Image divide(const Image& diffuse, const Image& albedo, const ByteImage& skin) {
   return shading;
 }
 
+// What turned out to be no skin has no highlights.
+void keep_on_skin(const ByteImage& region, highlight::Layers& layers) {
+  for (std::size_t i = 0; i < region.pixel_count(); ++i) {
+    if (region.data()[i] >= 1 && region.data()[i] <= kSkinRegionCount) continue;
+    for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) {
+      layers.diffuse.data()[c] += layers.highlight.data()[c];
+      layers.highlight.data()[c] = 0;
+    }
+  }
+}
+
 }  // namespace
 
 Estimator::Impl::Impl(EstimateOptions wanted)
@@ -58,9 +69,12 @@ FaceEstimate Estimator::Impl::analyse(const io::Photo& photo, const face::Camera
   watch.lap("geometry");
 
   const bool enough = shown_share(crop, photo.linear.width(), photo.linear.height()) >= options.least_shown;
-  Reading reading = reader.read(out.picture, out.clipped, skin_regions(out.geometry.region), enough);
+  Reading reading = reader.read(out.picture, out.clipped, skin_regions(out.geometry.region), out.geometry, enough);
   out.layers = std::move(reading.layers);
-  if (reading.surface && options.normals == NormalSource::kNet) apply_normals(*reading.surface, out.geometry);
+  if (reading.surface && options.normals == NormalSource::kNet) {
+    apply_normals(*reading.surface, out.geometry);
+    keep_on_skin(out.geometry.region, out.layers);
+  }
   watch.lap("highlights and normals");
 
   const ByteImage skin = skin_regions(out.geometry.region);

@@ -7,6 +7,7 @@
 #include "faceprobe/net/face_net.h"
 #include "faceprobe/net/highlight_net.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -77,7 +78,26 @@ void make_unit(Image& normals) {
   }
 }
 
+// The mesh's normals in the network's small picture, along its own camera's axis.
+Image small_mesh(const face::FaceGeometry& geometry, const Image& small) {
+  const double scale = static_cast<double>(small.width()) / geometry.normal_cam.width();
+  Image mesh = face::crop_picture(
+      geometry.normal_cam, {.x_px = 0, .y_px = 0, .scale = scale, .width = small.width(), .height = small.height()});
+  const Eigen::Matrix3f network_from_camera = camera_from_network(geometry).transpose();
+  for (std::size_t i = 0; i < mesh.values().size(); i += 3) {
+    Eigen::Map<Eigen::Vector3f> normal(mesh.data() + i);
+    normal = network_from_camera * Eigen::Vector3f(normal);
+  }
+  return mesh;
+}
+
 }  // namespace
+
+Eigen::Matrix3f camera_from_network(const face::FaceGeometry& geometry) {
+  const Image& view = geometry.view_cam;
+  const Eigen::Vector3f middle(view.pixel(view.width() / 2, view.height() / 2));
+  return Eigen::Quaternionf::FromTwoVectors(Eigen::Vector3f::UnitZ(), middle).toRotationMatrix();
+}
 
 struct FaceReader::Network {
   std::unique_ptr<net::HighlightNet> highlights;  // one of the two
@@ -92,21 +112,23 @@ struct FaceReader::Network {
     }
   }
 
-  net::FaceLayers see(const Image& small, const ByteImage& flags, const ByteImage& mask) const {
-    if (face) return face->layers_both_ways(small, flags, mask);
+  net::FaceLayers see(const Image& small, const ByteImage& flags, const ByteImage& mask,
+                      const face::FaceGeometry& geometry) const {
+    if (face) return face->layers_both_ways(small, flags, mask, small_mesh(geometry, small));
     net::FaceLayers layers;
     layers.highlight = net::highlight_both_ways(*highlights, small, flags, mask);
     return layers;
   }
 
-  Reading read(const Image& picture, const ByteImage& flags, const ByteImage& skin) const {
+  Reading read(const Image& picture, const ByteImage& flags, const ByteImage& skin,
+               const face::FaceGeometry& geometry) const {
     const face::Crop copy = small_copy(picture);
     const Image small = face::crop_picture(picture, copy);
     ByteImage where(skin.width(), skin.height(), 1);
     std::transform(skin.values().begin(), skin.values().end(), where.values().begin(),
                    [](std::uint8_t value) { return value != 0 ? std::uint8_t{1} : std::uint8_t{0}; });
     const ByteImage small_flags = face::crop_flags(flags, copy);
-    net::FaceLayers found = see(small, small_flags, face::crop_flags(where, copy));
+    net::FaceLayers found = see(small, small_flags, face::crop_flags(where, copy), geometry);
     fill_clipped(small_flags, small, found.highlight);  // here, where no pixel stands apart from its neighbours
     Reading reading;
     reading.layers.highlight =
@@ -118,8 +140,8 @@ struct FaceReader::Network {
     const int width = picture.width();
     const int height = picture.height();
     Surface surface{enlarged(found.normal_cam, copy, width, height),
-                    enlarged(found.normal_error_rad, copy, width, height),
-                    enlarged(found.shading, copy, width, height), enlarged(found.region, copy, width, height)};
+                    enlarged(found.normal_error_rad, copy, width, height), enlarged(found.shading, copy, width, height),
+                    enlarged(found.region, copy, width, height)};
     make_unit(surface.normal_cam);
     reading.surface = std::move(surface);
     return reading;
@@ -129,20 +151,16 @@ struct FaceReader::Network {
 FaceReader::FaceReader(const EstimateOptions& options)
     : classical_{.separator = options.classical.value_or(highlight::Separator::kYang), .threads = options.threads} {
   if (options.classical) return;
-  network_ = std::make_unique<Network>(
-      options.weights.empty() ? io::data_file("face.safetensors") : options.weights, options.threads);
+  network_ = std::make_unique<Network>(options.weights.empty() ? io::data_file("face.safetensors") : options.weights,
+                                       options.threads);
 }
 
 FaceReader::~FaceReader() = default;
 
-Reading FaceReader::read(const Image& picture, const ByteImage& flags, const ByteImage& skin, bool enough) const {
-  if (network_ && enough) return network_->read(picture, flags, skin);
+Reading FaceReader::read(const Image& picture, const ByteImage& flags, const ByteImage& skin,
+                         const face::FaceGeometry& geometry, bool enough) const {
+  if (network_ && enough) return network_->read(picture, flags, skin, geometry);
   return {highlight::separate(picture, skin, classical_), {}};
-}
-
-highlight::Layers FaceReader::separate(const Image& picture, const ByteImage& flags, const ByteImage& skin,
-                                       bool enough) const {
-  return read(picture, flags, skin, enough).layers;
 }
 
 }  // namespace faceprobe::pipeline

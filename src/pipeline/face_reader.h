@@ -23,6 +23,9 @@ struct Surface {
   ByteImage region;
 };
 
+// The network looks along the axis of a camera of its own; this turns its directions to where the face is seen.
+Eigen::Matrix3f camera_from_network(const face::FaceGeometry& geometry);
+
 struct Reading {
   highlight::Layers layers;
   std::optional<Surface> surface;
@@ -39,10 +42,9 @@ class FaceReader {
   FaceReader& operator=(FaceReader&&) = delete;
 
   // picture: H x W x 3 linear crop of one face; flags: io::Photo::clipped in the crop; skin: H x W x 1, non-zero where to separate;
-  // enough: of the face is shown, without which the classical separator steps in.
-  Reading read(const Image& picture, const ByteImage& flags, const ByteImage& skin, bool enough) const;
-  // The layers alone.
-  highlight::Layers separate(const Image& picture, const ByteImage& flags, const ByteImage& skin, bool enough) const;
+  // geometry: the mesh in the same crop, which may be smaller; enough: of the face is shown, without which the classical separator steps in.
+  Reading read(const Image& picture, const ByteImage& flags, const ByteImage& skin, const face::FaceGeometry& geometry,
+               bool enough) const;
 
  private:
   struct Network;

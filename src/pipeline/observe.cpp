@@ -108,7 +108,8 @@ lighting::Observations observe(const face::FaceGeometry& geometry, const Image& 
       for (int c = 0; c < 3; ++c) patch.clipped[c] += (flags(x, y) >> c & 1) != 0 ? 1.0F : 0.0F;
       patch.roughness += skin_here.roughness;
       patch.specular_albedo += skin_here.specular_albedo;
-      patch.trust += geometry.normal_error_rad.empty() ? mesh_trust(region) : stated_trust(geometry.normal_error_rad(x, y));
+      patch.trust +=
+          geometry.normal_error_rad.empty() ? mesh_trust(region) : stated_trust(geometry.normal_error_rad(x, y));
       patch.pixels += 1;
       patch.x += static_cast<float>(x);
       patch.y += static_cast<float>(y);

@@ -22,6 +22,15 @@ face::Crop full_crop(const face::Crop& wide, int width, int height) {
           .height = std::max(0, bottom - top)};
 }
 
+// The same part of the photo, no larger than the network's picture.
+face::Crop small_crop(face::Crop crop) {
+  constexpr double kLongSidePx = 128;
+  crop.scale = std::min(1.0, kLongSidePx / std::max(crop.width, crop.height));
+  crop.width = std::max(1, static_cast<int>(std::lround(crop.scale * crop.width)));
+  crop.height = std::max(1, static_cast<int>(std::lround(crop.scale * crop.height)));
+  return crop;
+}
+
 template <class T>
 BasicImage<T> cut(const BasicImage<T>& photo, int left, int top, const face::Crop& crop) {
   BasicImage<T> out(crop.width, crop.height, photo.channels());
@@ -53,9 +62,10 @@ highlight::Layers Estimator::separate(const io::Photo& photo) const {
     const int top = static_cast<int>(crop.y_px);
     const Image picture = cut(photo.linear, left, top, crop);
     const ByteImage skin = skin_regions(face::rasterize_regions(face, camera, impl_->mesh, crop));
+    const face::FaceGeometry geometry = face::rasterize(face, camera, impl_->mesh, small_crop(crop));
+    const bool enough = shown_share(wide, photo.linear.width(), photo.linear.height()) >= impl_->options.least_shown;
     const highlight::Layers layers =
-        impl_->reader.separate(picture, cut(photo.clipped, left, top, crop), skin,
-                                   shown_share(wide, photo.linear.width(), photo.linear.height()) >= impl_->options.least_shown);
+        impl_->reader.read(picture, cut(photo.clipped, left, top, crop), skin, geometry, enough).layers;
     for (int y = 0; y < crop.height; ++y) {
       for (int x = 0; x < crop.width; ++x) {
         if (skin(x, y) == 0) continue;

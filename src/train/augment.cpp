@@ -59,8 +59,10 @@ void put_before(TrainingPicture& picture, Random& random) {
 }
 
 void mirror_surface(TrainingPicture& picture) {
-  mirror(picture.normal);
-  for (std::size_t i = 0; i < picture.normal.values().size(); i += 3) picture.normal.data()[i] *= -1;
+  for (Image* normals : {&picture.normal, &picture.mesh}) {
+    mirror(*normals);
+    for (std::size_t i = 0; i < normals->values().size(); i += 3) normals->data()[i] *= -1;
+  }
   mirror(picture.depth_m);
   mirror(picture.shading);
   mirror(picture.region);
@@ -77,6 +79,19 @@ std::array<double, 4> draw_cuts(Random& random) {
   return cuts;
 }
 
+// The mask an estimate has is the mesh's; without a mesh it has none.
+void put_mesh(const synth::ShardReader& reader, int number, TrainingPicture& picture) {
+  synth::FoundMesh mesh = reader.copy_mesh(number);
+  bool found = false;
+  for (std::size_t i = 0; i < mesh.region.pixel_count(); ++i) {
+    const std::uint8_t region = mesh.region.data()[i];
+    picture.mask.data()[i] = region >= 1 && region <= kSkinRegionCount ? 1 : 0;
+    found = found || region != 0;
+  }
+  if (!found) std::fill(picture.mask.values().begin(), picture.mask.values().end(), std::uint8_t{1});
+  picture.mesh = std::move(mesh.normal_cam);
+}
+
 TrainingPicture picture_of(const synth::ShardReader& reader, int number, float mask_scale, bool surface) {
   synth::Sample sample = surface ? reader.copy_sample(number) : reader.copy_light(number);
   synth::ViewLayers view = surface ? reader.copy_view(number) : reader.copy_faces(number);
@@ -86,10 +101,12 @@ TrainingPicture picture_of(const synth::ShardReader& reader, int number, float m
                           .mask = synth::face_mask(view, mask_scale),
                           .highlight = std::move(layers.highlight),
                           .skin = synth::skin_mask(view),
+                          .mesh = {},
                           .normal = std::move(view.normal),
                           .depth_m = std::move(view.depth_m),
                           .shading = std::move(sample.shading),
                           .region = surface ? std::move(view.region) : ByteImage()};
+  if (surface) put_mesh(reader, number, picture);
   for (std::size_t i = 0; i < sample.clip.pixel_count(); ++i) {
     for (std::size_t c = 0; c < 3; ++c)
       picture.clip.data()[3 * i + c] = static_cast<std::uint8_t>(sample.clip.data()[i] >> c & 1U);
@@ -148,7 +165,10 @@ TrainingPicture draw_picture(const synth::ShardReader& reader, int sample, const
   if (config.architecture != "mscr") apply_gain(gain, picture);
   if (occluded) put_before(picture, random);
   if (grey) take_colour(picture);
-  if (!masked) std::fill(picture.mask.values().begin(), picture.mask.values().end(), std::uint8_t{1});
+  if (!masked) {
+    std::fill(picture.mask.values().begin(), picture.mask.values().end(), std::uint8_t{1});
+    std::fill(picture.mesh.values().begin(), picture.mesh.values().end(), 0.0F);
+  }
   if (cut) {
     cut_sides({.left = static_cast<int>(cuts[0] * width),
                .top = static_cast<int>(cuts[1] * height),

@@ -15,6 +15,7 @@ struct TrainingPicture {
   Image highlight;  // 3 channels
   ByteImage skin;   // 1 channel
   // For the face network; empty for the others.
+  Image mesh = {};        // 3 channels: normals of the mesh that was found, 0 off it
   Image normal = {};      // 3 channels
   Image depth_m = {};     // 1 channel
   Image shading = {};     // 3 channels; 0 where it is not known

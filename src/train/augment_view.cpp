@@ -39,10 +39,12 @@ void put_outside(TrainingPicture& picture, int x, int y) {
 TrainingPicture zoomed(const TrainingPicture& picture, double zoom, double centre_x, double centre_y) {
   const int width = picture.linear.width();
   const int height = picture.linear.height();
-  TrainingPicture out{Image(width, height, 3), ByteImage(width, height, 3), ByteImage(width, height, 1),
-                      Image(width, height, 3), ByteImage(width, height, 1), {}, {}, {}, {}};
+  TrainingPicture out;
+  out.linear = out.highlight = Image(width, height, 3);
+  out.clip = ByteImage(width, height, 3);
+  out.mask = out.skin = ByteImage(width, height, 1);
   if (picture.has_surface()) {
-    out.normal = out.shading = Image(width, height, 3);
+    out.mesh = out.normal = out.shading = Image(width, height, 3);
     out.depth_m = Image(width, height, 1);
     out.region = ByteImage(width, height, 1);
   }
@@ -70,7 +72,10 @@ TrainingPicture zoomed(const TrainingPicture& picture, double zoom, double centr
       out.region(x, y) = picture.region(ix, iy);
       out.depth_m(x, y) = picture.depth_m(ix, iy);
       std::copy_n(picture.shading.pixel(ix, iy), 3, out.shading.pixel(x, y));
-      for (int c = 0; c < 3; ++c) out.normal(x, y, c) = between(picture.normal, from_x, from_y, c);
+      for (int c = 0; c < 3; ++c) {
+        out.normal(x, y, c) = between(picture.normal, from_x, from_y, c);
+        out.mesh(x, y, c) = between(picture.mesh, from_x, from_y, c);
+      }
     }
   }
   return out;

@@ -1,5 +1,6 @@
 #include "train/batch.h"
 
+#include "faceprobe/core/error.h"
 #include "faceprobe/core/permutation.h"
 #include "faceprobe/core/region.h"
 #include "train/augment.h"
@@ -63,6 +64,7 @@ void put(const TrainingPicture& picture, std::int64_t at, const Batch& batch) {
   copy(picture.highlight, batch.highlight);
   copy(picture.skin, batch.skin);
   if (!picture.has_surface()) return;
+  copy(picture.mesh, batch.surface.mesh);
   copy(picture.normal, batch.surface.normal);
   copy(picture.depth_m, batch.surface.depth_m);
   copy(surface_weight(picture.region), batch.surface.weight);
@@ -77,7 +79,8 @@ Batch empty_batch(std::int64_t count, int width, int height, bool surface) {
     return torch::zeros({count, height, width, channels}, torch::kFloat).permute({0, 3, 1, 2});
   };
   Batch batch{pictures(3), pictures(3), pictures(1), pictures(3), pictures(1), {}};
-  if (surface) batch.surface = {pictures(3), pictures(1), pictures(1), pictures(1), pictures(3), pictures(1)};
+  if (surface)
+    batch.surface = {pictures(3), pictures(3), pictures(1), pictures(1), pictures(1), pictures(3), pictures(1)};
   return batch;
 }
 
@@ -104,6 +107,13 @@ Batch training_batch(const synth::ShardReader& reader, const TrainConfig& config
 }
 
 }  // namespace
+
+void require_meshes(const synth::ShardReader& reader, const std::filesystem::path& folder, const TrainConfig& config) {
+  if (config.architecture != "face" || reader.has_meshes()) return;
+  throw Error(ExitCode::kInput, "The face network is given the mesh that is found in a photo, which the data in " +
+                                    folder.string() + " do not have. Run `faceprobe mesh " + folder.string() +
+                                    "` first.");
+}
 
 Batch plain_batch(const synth::ShardReader& reader, const std::vector<int>& samples, bool surface) {
   return make_batch(samples.size(), [&](std::size_t i) { return plain_picture(reader, samples[i], surface); });

@@ -7,6 +7,7 @@
 
 #include <torch/torch.h>
 #include <condition_variable>
+#include <filesystem>
 #include <map>
 #include <mutex>
 #include <thread>
@@ -14,8 +15,9 @@
 
 namespace faceprobe::train {
 
-// What the face network is to find beside the highlights; undefined tensors for the others.
+// What the face network is given and is to find beside the highlights; undefined tensors for the others.
 struct SurfaceBatch {
+  torch::Tensor mesh;     // N x 3 x H x W: normals of the mesh that was found, 0 off it; given to the network
   torch::Tensor normal;   // N x 3 x H x W, camera frame; of any length
   torch::Tensor depth_m;  // N x 1 x H x W
   torch::Tensor weight;   // N x 1 x H x W: of the normal and the depth there
@@ -28,13 +30,16 @@ struct SurfaceBatch {
 
 // N pictures of H x W. Float, channels-last, on the processor.
 struct Batch {
-  torch::Tensor linear;     // N x 3 x H x W
-  torch::Tensor clip;       // N x 3 x H x W of 0 and 1
-  torch::Tensor mask;       // N x 1 x H x W of 0 and 1
-  torch::Tensor highlight;  // N x 3 x H x W
-  torch::Tensor skin;       // N x 1 x H x W of 0 and 1: where errors count whole
+  torch::Tensor linear;       // N x 3 x H x W
+  torch::Tensor clip;         // N x 3 x H x W of 0 and 1
+  torch::Tensor mask;         // N x 1 x H x W of 0 and 1
+  torch::Tensor highlight;    // N x 3 x H x W
+  torch::Tensor skin;         // N x 1 x H x W of 0 and 1: where errors count whole
   SurfaceBatch surface = {};  // for the face network alone
 };
+
+// Throws Error(kInput) when the config's network is given meshes that the data do not have.
+void require_meshes(const synth::ShardReader& reader, const std::filesystem::path& folder, const TrainConfig& config);
 
 // Samples as they are, for validation.
 Batch plain_batch(const synth::ShardReader& reader, const std::vector<int>& samples, bool surface = false);

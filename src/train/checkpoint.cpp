@@ -41,7 +41,7 @@ std::vector<TrainRow> unpacked(const torch::Tensor& table) {
     row.learning_rate = from[i][2];
     row.samples_per_second = from[i][3];
     row.validated = from[i][4] != 0;
-    row.validation = {from[i][5], from[i][6], from[i][7], from[i][8],
+    row.validation = {from[i][5], from[i][6],  from[i][7],  from[i][8],
                       from[i][9], from[i][10], from[i][11], from[i][12]};
     rows.push_back(row);
   }

@@ -113,16 +113,19 @@ void frame(std::vector<Point>& points, double& low, double& high) {
 }  // namespace
 
 std::string to_csv(const std::vector<TrainRow>& rows) {
-  std::string csv = "step,loss,learning_rate,samples_per_second,rmse_skin,rmse_whole,black_skin,black_whole,normal_deg,region_share,shading,colour_deg\n";
+  std::string csv =
+      "step,loss,learning_rate,samples_per_second,rmse_skin,rmse_whole,black_skin,black_whole,normal_deg,region_share,"
+      "shading,colour_deg\n";
   std::array<char, 256> line{};
   for (const TrainRow& row : rows) {
     std::snprintf(line.data(), line.size(), "%lld,%.6g,%.6g,%.2f", static_cast<long long>(row.step), row.loss,
                   row.learning_rate, row.samples_per_second);
     csv += line.data();
     if (row.validated) {
-      std::snprintf(line.data(), line.size(), ",%.4f,%.4f,%.4f,%.4f,%.3f,%.4f,%.4f,%.3f", row.validation.skin, row.validation.whole,
-                    row.validation.black_skin, row.validation.black_whole, row.validation.normal_deg,
-                    row.validation.region_share, row.validation.shading, row.validation.colour_deg);
+      std::snprintf(line.data(), line.size(), ",%.4f,%.4f,%.4f,%.4f,%.3f,%.4f,%.4f,%.3f", row.validation.skin,
+                    row.validation.whole, row.validation.black_skin, row.validation.black_whole,
+                    row.validation.normal_deg, row.validation.region_share, row.validation.shading,
+                    row.validation.colour_deg);
       csv += line.data();
     } else {
       csv += ",,,,";

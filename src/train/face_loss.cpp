@@ -52,9 +52,8 @@ torch::Tensor chord(const torch::Tensor& a, const torch::Tensor& b) {
 torch::Tensor surface_loss(const net::FaceSurface& found, const SurfaceBatch& truth, const LossConfig& config) {
   const torch::Tensor error = chord(found.normal, truth.normal);
   const torch::Tensor names = truth.region.squeeze(1).to(torch::kLong);
-  return config.normal * weighted_mean(error, truth.weight) +
-         config.spread * spread_loss(error, found, truth.weight) + config.depth * depth_loss(found.depth, truth) +
-         config.region * torch::cross_entropy_loss(found.region, names) +
+  return config.normal * weighted_mean(error, truth.weight) + config.spread * spread_loss(error, found, truth.weight) +
+         config.depth * depth_loss(found.depth, truth) + config.region * torch::cross_entropy_loss(found.region, names) +
          config.shading * shading_loss(found.log_level, truth) +
          config.colour * weighted_mean(chord(found.colour, truth.shading), truth.lit);
 }

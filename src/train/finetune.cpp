@@ -11,7 +11,6 @@
 #include "net/torch/unet.h"
 #include "net/torch/weights.h"
 #include "train/batch.h"
-#include "train/loss.h"
 #include "train/model.h"
 #include "train/person_loss.h"
 
@@ -28,33 +27,63 @@ constexpr std::int64_t kRowEvery = 10;    // steps
 constexpr int kScoreRounds = 3;           // groups of photos of a person who is measured
 constexpr Eigen::Index kLeastSkin = 200;  // pixels of the square that a group of photos must share
 
-Model model_of(const std::filesystem::path& weights) {
+// As the weights were trained, so that what they know is kept by the loss they learnt it by.
+TrainConfig config_of(const std::filesystem::path& weights) {
   const net::ModelInfo info = net::read_model_info(weights);
-  if (info.architecture != net::kUNetArchitecture) {
-    throw Error(ExitCode::kInput,
-                weights.string() + " holds the network \"" + info.architecture + "\"; what is finetuned is unet.");
+  if (info.architecture != net::kUNetArchitecture && info.architecture != net::kFaceArchitecture) {
+    throw Error(ExitCode::kInput, weights.string() + " holds the network \"" + info.architecture +
+                                      "\"; what is finetuned is unet and face.");
   }
   TrainConfig config;
+  if (const auto run = info.metadata.find("run"); run != info.metadata.end()) {
+    const nlohmann::json json = nlohmann::json::parse(run->second, nullptr, false);
+    if (json.is_object() && json.contains("config")) config = train_config_from_json(json["config"].dump());
+  }
+  config.architecture = info.architecture;
   config.network = info.options_json;
-  Model model = make_model(config);
+  return config;
+}
+
+Model model_of(const std::filesystem::path& weights) {
+  Model model = make_model(config_of(weights));
   net::load_weights(*model.module, weights);
   return model;
 }
 
+// As large as `like`; what is beyond the picture is off the mesh.
+Image padded_mesh(const Image& mesh, const Image& like) {
+  Image padded(like.width(), like.height(), 3);
+  for (int y = 0; y < mesh.height(); ++y) std::copy_n(mesh.pixel(0, y), mesh.row(y).size(), padded.pixel(0, y));
+  return padded;
+}
+
+struct PaddedPhoto {
+  net::PaddedPicture picture;
+  Image mesh;
+};
+
 // One photo as a batch of its own, padded to a multiple; `padded` owns the values.
-Batch batch_of(net::PaddedPicture& padded) {
-  return {net::tensor_view(padded.linear), net::tensor_view(padded.clip), net::tensor_view(padded.mask), {}, {}};
+Batch batch_of(PaddedPhoto& padded) {
+  Batch batch{net::tensor_view(padded.picture.linear),
+              net::tensor_view(padded.picture.clip),
+              net::tensor_view(padded.picture.mask),
+              {},
+              {}};
+  batch.surface.mesh = net::tensor_view(padded.mesh);
+  return batch;
 }
 
 int multiple_of(const Model& model) { return std::dynamic_pointer_cast<net::UNetImpl>(model.module)->multiple(); }
 
 struct Shown {
-  net::PaddedPicture padded;
+  PaddedPhoto padded;
   torch::Tensor highlight;  // with its graph
 };
 
-Shown show(const Model& model, const PersonPhoto& photo, const ByteImage& mask, int multiple) {
-  Shown shown{net::pad_picture(photo.linear, photo.clipped, mask, multiple), {}};
+Shown show(const Model& model, const PersonSet& person, std::size_t i, int multiple) {
+  const PersonPhoto& photo = *person.photos[i];
+  Shown shown{{net::pad_picture(photo.linear, photo.clipped, person.masks[i], multiple), {}}, {}};
+  shown.padded.mesh = padded_mesh(person.meshes[i], shown.padded.picture.linear);
   shown.highlight = model.forward(batch_of(shown.padded));
   return shown;
 }
@@ -99,9 +128,12 @@ class Finetuning {
         optimizer_(model_.module->parameters(),
                    torch::optim::AdamWOptions(run.config.learning_rate).betas({0.9, 0.99}).weight_decay(0)) {
     split_people();
+    loss_.energy_weight = run.config.energy_weight;
     if (run.config.mode == "paper") loss_ = {.rank1 = false, .blur_sigma_px = 0, .guard_weight = 0, .energy_weight = 0};
     if (run.config.synthetic_batch > 0) {
       faces_.emplace(run.synthetic);
+      faces_config_ = config_of(run.start);
+      require_meshes(*faces_, run.synthetic, faces_config_);
       faces_config_.batch = run.config.synthetic_batch;
       faces_config_.seed = run.config.seed;
       faces_config_.steps = run.config.steps;
@@ -159,7 +191,7 @@ class Finetuning {
     const bool used = add_people(step, sum);
     if (source_) {
       const Batch batch = source_->next();
-      torch::Tensor loss = highlight_loss(model_.forward(batch), batch, faces_config_.loss);
+      const torch::Tensor loss = model_.loss(batch, faces_config_.loss);
       loss.backward();
       sum.synthetic_loss += loss.item<double>();
     }
@@ -179,7 +211,7 @@ class Finetuning {
     std::vector<Image> layers;
     for (const int number : chosen) {
       const auto i = static_cast<std::size_t>(number);
-      layers.push_back(layer_of(show(before_, *person.photos[i], person.masks[i], multiple_), *person.photos[i]));
+      layers.push_back(layer_of(show(before_, person, i, multiple_), *person.photos[i]));
     }
     return group.loss(layers).energies;
   }
@@ -194,7 +226,7 @@ class Finetuning {
     std::vector<Image> layers;
     for (const int number : chosen) {
       const auto i = static_cast<std::size_t>(number);
-      shown.push_back(show(model_, *person.photos[i], person.masks[i], multiple_));
+      shown.push_back(show(model_, person, i, multiple_));
       layers.push_back(layer_of(shown.back(), *person.photos[i]));
     }
     const PersonLoss loss = group->loss(layers, energies_before(person, chosen, *group));
@@ -221,7 +253,7 @@ class Finetuning {
         for (const int number : chosen) {
           const auto i = static_cast<std::size_t>(number);
           const PersonPhoto& photo = *person->photos[i];
-          layers.push_back(layer_of(show(model_, photo, person->masks[i], multiple_), photo));
+          layers.push_back(layer_of(show(model_, *person, i, multiple_), photo));
           none.emplace_back(photo.linear.width(), photo.linear.height(), 3);
         }
         const PersonLoss loss = group->loss(layers);
@@ -253,6 +285,7 @@ class Finetuning {
                                          {"synthetic_batch", config.synthetic_batch},
                                          {"learning_rate", config.learning_rate},
                                          {"weight", config.weight},
+                                         {"energy_weight", config.energy_weight},
                                          {"seed", config.seed},
                                          {"people", trained_.size()},
                                          {"start", net::read_model_info(run_.start).sha256}};
@@ -296,6 +329,7 @@ std::string FinetuneConfig::validate() const {
   if (synthetic_batch < 0 || synthetic_batch > 4096) return outside("synthetic_batch", synthetic_batch, "0 to 4096");
   if (!(learning_rate > 0 && learning_rate <= 1)) return outside("learning_rate", learning_rate, "above 0, to 1");
   if (!(weight >= 0 && weight <= 1000)) return outside("weight", weight, "0 to 1000");
+  if (!(energy_weight >= 0 && energy_weight <= 100)) return outside("energy_weight", energy_weight, "0 to 100");
   if (!(largest_gradient > 0 && largest_gradient <= 1e6))
     return outside("largest_gradient", largest_gradient, "above 0, to 1e6");
   if (!(held_out_share > 0 && held_out_share < 1)) return outside("held_out_share", held_out_share, "between 0 and 1");

@@ -36,29 +36,44 @@ torch::Tensor highlight_of(const torch::Tensor& raw, const Batch& batch) {
   return net::highlight_from_raw(raw.narrow(1, 0, net::kRawChannels).to(torch::kFloat), batch.linear);
 }
 
-// `surface`: with the outputs of the face network.
+struct Raw {
+  torch::Tensor channels;
+  torch::Tensor gain;  // of the picture; of the face network alone
+};
+
+// `surface`: with the inputs and outputs of the face network.
 Model unet_model(const std::string& given, bool surface) {
   net::UNetOptions defaults;
-  if (surface) defaults.out_channels = net::FaceOutputs::kCount;
+  if (surface) {
+    defaults.in_channels = net::FaceInputs::kCount;
+    defaults.out_channels = net::FaceOutputs::kCount;
+  }
   const auto options = read_options(net::unet_options_from_json, merged(net::options_json(defaults), given));
   net::UNet unet(options);
   unet->to(torch::kFloat, false);
-  const auto raw_of = [impl = unet.ptr()](const Batch& batch) {
-    return impl->forward(net::prepare_input(batch.linear, batch.clip, batch.mask));
+  const auto raw_of = [impl = unet.ptr(), surface](const Batch& batch) -> Raw {
+    if (!surface) return {impl->forward(net::prepare_input(batch.linear, batch.clip, batch.mask)), {}};
+    const net::FaceInput input = net::prepare_face_input(batch.linear, batch.clip, batch.mask, batch.surface.mesh);
+    return {impl->forward(input.channels), input.gain};
   };
   Model model;
   model.module = unet.ptr();
-  model.forward = [raw_of](const Batch& batch) { return highlight_of(raw_of(batch), batch); };
+  model.forward = [raw_of](const Batch& batch) { return highlight_of(raw_of(batch).channels, batch); };
   model.highlight = model.forward;
   model.metadata = {{net::kArchitectureKey, surface ? net::kFaceArchitecture : net::kUNetArchitecture},
                     {net::kOptionsKey, net::options_json(options)}};
   model.loss = [raw_of, surface](const Batch& batch, const LossConfig& config) {
-    const torch::Tensor raw = raw_of(batch);
-    const torch::Tensor loss = highlight_loss(highlight_of(raw, batch), batch, config);
-    return surface ? loss + surface_loss(net::surface_from_raw(raw), batch.surface, config) : loss;
+    const Raw raw = raw_of(batch);
+    const torch::Tensor loss = highlight_loss(highlight_of(raw.channels, batch), batch, config);
+    if (!surface) return loss;
+    return loss + surface_loss(net::surface_from_raw(raw.channels, raw.gain), batch.surface, config);
   };
-  if (surface)
-    model.surface = [raw_of](const Batch& batch) { return net::surface_from_raw(raw_of(batch)); };
+  if (surface) {
+    model.surface = [raw_of](const Batch& batch) {
+      const Raw raw = raw_of(batch);
+      return net::surface_from_raw(raw.channels, raw.gain);
+    };
+  }
   return model;
 }
 

@@ -6,6 +6,7 @@
 #include "faceprobe/face/geometry.h"
 #include "faceprobe/io/data_files.h"
 #include "faceprobe/io/photo.h"
+#include "faceprobe/synth/shard.h"
 #include "train/finetune_guards.h"
 #include "train/histogram_transfer.h"
 #include "train/person_loss.h"
@@ -13,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <optional>
 
@@ -21,8 +23,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kCalibrationPx = 512;  // long side of a face at most, where its curve is looked for
-constexpr double kLeastFacePx = 80;  // wide: below, highlights are a few pixels
+constexpr int kCalibrationPx = 512;        // long side of a face at most, where its curve is looked for
+constexpr int kLeastFacePx = 80;           // wide: below, highlights are a few pixels
+constexpr int kLeastSyntheticFacePx = 36;  // of faces that were rendered at that size, and are sharp
 
 bool is_photo(const fs::path& path) {
   std::string extension = path.extension().string();
@@ -46,13 +49,14 @@ std::map<std::string, std::vector<fs::path>> photos_by_person(const fs::path& fo
 struct Candidate {
   PersonPhoto photo;
   ByteImage mask;
+  Image mesh;
   bool calibrated = false;
 };
 
 class Reader {
  public:
-  explicit Reader(const PeopleOptions& options)
-      : options_(options), finder_(face::FinderOptions{}),
+  Reader(const PeopleOptions& options, int least_face_px)
+      : options_(options), least_face_px_(least_face_px), finder_(face::FinderOptions{.min_face_px = least_face_px}),
         mesh_(face::load_canonical_mesh(io::data_file("canonical-face-model.obj"))),
         square_(face_template(mesh_, options.square_px, TemplateLayout::kFrontal)),
         regions_(template_regions(square_, face::triangle_regions(mesh_))) {}
@@ -60,8 +64,7 @@ class Reader {
   const ByteImage& regions() const { return regions_; }
 
   // Nothing when the photo is unsuitable; then `why` says so.
-  std::optional<Candidate> read(const fs::path& file, std::string& why) const {
-    io::Photo photo = io::load_photo(file);
+  std::optional<Candidate> read(io::Photo photo, std::string& why) const {
     if (photo.grey) return refused(why, "it is grey");
     face::Camera camera;
     camera.centre_x_px = 0.5 * photo.linear.width();
@@ -73,7 +76,7 @@ class Reader {
     const face::Face& face = *std::max_element(faces.begin(), faces.end(), [](const auto& a, const auto& b) {
       return a.box.width * a.box.height < b.box.width * b.box.height;
     });
-    if (static_cast<double>(face.box.width) < kLeastFacePx) {
+    if (static_cast<double>(face.box.width) < least_face_px_) {
       return refused(why, "its face is " + std::to_string(static_cast<int>(face.box.width)) + " px wide");
     }
     const bool calibrated = options_.calibrate && calibrate(face, camera, photo);
@@ -110,12 +113,14 @@ class Reader {
     Candidate out;
     out.photo.linear = face::crop_picture(photo.linear, crop);
     out.photo.clipped = face::crop_flags(photo.clipped, crop);
-    const ByteImage regions = face::rasterize_regions(face, camera, mesh_, crop);
+    face::FaceGeometry surface = face::rasterize(face, camera, mesh_, crop);
+    const ByteImage& regions = surface.region;
     out.mask = ByteImage(crop.width, crop.height, 1);
     for (std::size_t i = 0; i < regions.pixel_count(); ++i) {
       const std::uint8_t region = regions.data()[i];
       out.mask.data()[i] = region > 0 && region <= kSkinRegionCount ? 1 : 0;
     }
+    out.mesh = std::move(surface.normal_cam);
     WarpLandmarks landmarks{face.landmarks_px.leftCols<2>(), face.landmarks_px.col(2) * static_cast<float>(crop.scale)};
     for (Eigen::Index i = 0; i < landmarks.photo_px.rows(); ++i) {
       const Eigen::Vector2d at = crop.crop_from_photo(static_cast<double>(landmarks.photo_px(i, 0)),
@@ -146,6 +151,7 @@ class Reader {
   }
 
   PeopleOptions options_;
+  double least_face_px_;
   face::FaceFinder finder_;
   face::CanonicalMesh mesh_;
   FaceTemplate square_;
@@ -172,41 +178,108 @@ std::string PeopleOptions::validate() const {
   return {};
 }
 
+namespace {
+
+// A photo that may turn out not to be one, and what to call it.
+struct PhotoSource {
+  std::string name;
+  std::function<io::Photo()> photo;
+};
+
+// Empty when too few photos are suitable.
+std::optional<PersonSet> person_of(const std::string& name, const std::vector<PhotoSource>& sources,
+                                   const Reader& reader, const PeopleOptions& options,
+                                   const std::function<void(const std::string&)>& progress) {
+  PersonSet person{
+      .name = name, .photos = {}, .masks = {}, .meshes = {}, .regions = reader.regions(), .left_out = {}, .calibrated = 0};
+  std::vector<Candidate> candidates;
+  for (const PhotoSource& source : sources) {
+    if (static_cast<int>(candidates.size()) == options.most_photos) break;
+    std::string why;
+    try {
+      if (std::optional<Candidate> candidate = reader.read(source.photo(), why))
+        candidates.push_back(std::move(*candidate));
+    } catch (const Error& error) {
+      why = error.what();
+    }
+    if (why.empty()) continue;
+    person.left_out.push_back(source.name + ": " + why);
+    if (progress) progress(name + "/" + person.left_out.back());
+  }
+  person.calibrated =
+      static_cast<int>(std::ranges::count_if(candidates, [](const Candidate& c) { return c.calibrated; }));
+  if (progress) {
+    progress(name + ": " + std::to_string(candidates.size()) + " photos of " + std::to_string(sources.size()) +
+             " can be used" +
+             (options.calibrate ? ", " + std::to_string(person.calibrated) + " by curves of their own" : ""));
+  }
+  if (static_cast<int>(candidates.size()) < options.least_photos) return std::nullopt;
+  if (options.match_colours) match_colours(candidates);
+  for (Candidate& candidate : candidates) {
+    person.photos.push_back(std::make_shared<const PersonPhoto>(std::move(candidate.photo)));
+    person.masks.push_back(std::move(candidate.mask));
+    person.meshes.push_back(std::move(candidate.mesh));
+  }
+  return person;
+}
+
+io::Photo photo_of(const synth::Sample& sample) {
+  io::Photo photo;
+  photo.linear = decode_srgb(sample.photo);
+  photo.clipped = sample.clip;
+  return photo;
+}
+
+// Numbers of the samples of each person, in the order in which they lie; one face a picture.
+std::map<int, std::vector<int>> samples_by_person(const synth::ShardReader& faces) {
+  std::map<int, std::vector<int>> people;
+  for (int number = 0; number < faces.sample_count(); ++number) people[faces.person(number)].push_back(number);
+  return people;
+}
+
+}  // namespace
+
 std::vector<PersonSet> load_people(const fs::path& folder, const PeopleOptions& options,
                                    const std::function<void(const std::string&)>& progress) {
   if (const std::string fault = options.validate(); !fault.empty()) throw Error(ExitCode::kUsage, fault);
-  const Reader reader(options);
+  const Reader reader(options, kLeastFacePx);
   std::vector<PersonSet> people;
   for (const auto& [name, files] : photos_by_person(folder)) {
-    PersonSet person{
-        .name = name, .photos = {}, .masks = {}, .regions = reader.regions(), .left_out = {}, .calibrated = 0};
-    std::vector<Candidate> candidates;
-    for (const fs::path& file : files) {
-      if (static_cast<int>(candidates.size()) == options.most_photos) break;
-      std::string why;
-      try {
-        if (std::optional<Candidate> candidate = reader.read(file, why)) candidates.push_back(std::move(*candidate));
-      } catch (const Error& error) {
-        why = error.what();
-      }
-      if (why.empty()) continue;
-      person.left_out.push_back(file.filename().string() + ": " + why);
-      if (progress) progress(name + "/" + person.left_out.back());
+    std::vector<PhotoSource> sources;
+    sources.reserve(files.size());
+    for (const fs::path& file : files)
+      sources.push_back({file.filename().string(), [file] { return io::load_photo(file); }});
+    if (std::optional<PersonSet> person = person_of(name, sources, reader, options, progress))
+      people.push_back(std::move(*person));
+  }
+  return people;
+}
+
+std::vector<PersonSet> load_synthetic_people(const fs::path& folder, int most_people, const PeopleOptions& options,
+                                             const std::function<void(const std::string&)>& progress) {
+  if (const std::string fault = options.validate(); !fault.empty()) throw Error(ExitCode::kUsage, fault);
+  if (most_people < 1)
+    throw Error(ExitCode::kUsage, "most_people is " + std::to_string(most_people) + "; it must be 1 or more.");
+  const synth::ShardReader faces(folder);
+  const Reader reader(options, kLeastSyntheticFacePx);
+  const std::map<int, std::vector<int>> numbers = samples_by_person(faces);
+  const double stride = std::max(1.0, static_cast<double>(numbers.size()) / most_people);
+  std::vector<PersonSet> people;
+  double next = 0;
+  int at = 0;
+  for (const auto& [person_number, samples] : numbers) {
+    if (at++ < next) continue;
+    next += stride;
+    // Lights of one view lie side by side: taken with strides, photos differ in both.
+    std::vector<PhotoSource> sources;
+    const std::size_t tried = std::min<std::size_t>(samples.size(), 2 * static_cast<std::size_t>(options.most_photos));
+    for (std::size_t i = 0; i < tried; ++i) {
+      const int number = samples[i * samples.size() / tried];
+      sources.push_back({std::to_string(number), [&faces, number] { return photo_of(faces.copy_light(number)); }});
     }
-    person.calibrated =
-        static_cast<int>(std::ranges::count_if(candidates, [](const Candidate& c) { return c.calibrated; }));
-    if (progress) {
-      progress(name + ": " + std::to_string(candidates.size()) + " photos of " + std::to_string(files.size()) +
-               " can be used" +
-               (options.calibrate ? ", " + std::to_string(person.calibrated) + " by curves of their own" : ""));
-    }
-    if (static_cast<int>(candidates.size()) < options.least_photos) continue;
-    if (options.match_colours) match_colours(candidates);
-    for (Candidate& candidate : candidates) {
-      person.photos.push_back(std::make_shared<const PersonPhoto>(std::move(candidate.photo)));
-      person.masks.push_back(std::move(candidate.mask));
-    }
-    people.push_back(std::move(person));
+    if (std::optional<PersonSet> person =
+            person_of("person " + std::to_string(person_number), sources, reader, options, progress))
+      people.push_back(std::move(*person));
   }
   return people;
 }

@@ -48,6 +48,7 @@ class Training {
     }
     model_.module->to(device_);
     for (torch::Tensor& value : average_.values()) value = value.to(device_);
+    require_meshes(data_, run.data, run.config);
     identity_ = run_json(run, data_);
     if (run.repeat_batch) return;
     io::create_folder(run.folder);
@@ -55,6 +56,7 @@ class Training {
     io::write_file_atomically(run.folder / "config.json", to_json(run.config));
     if (!run.validation_data.empty()) {
       validation_data_.emplace(run.validation_data);
+      require_meshes(*validation_data_, run.validation_data, run.config);
       validator_.emplace(*validation_data_, run.config.validation_samples, device_, finds_surface(run.config));
     }
   }

@@ -73,3 +73,20 @@ case_train_and_eval() {
   echo '{"batch": 1, "steps": 4, "network": {"widths": [8, 16]}}' >changed.json
   expect_refused 6 "another config" train highlight --config changed.json --data faces -o run
 }
+
+case_face_network() {
+  expect_exit 0 synth --count 4 --size 64 --views 2 --lights 2 --seed 4 -o faces
+  echo '{"architecture": "face", "batch": 2, "steps": 4, "save_every": 2, "network": {"widths": [8, 16]}}' >face.json
+  expect_refused 2 "Name face" train highlight --config face.json --data faces -o run
+  expect_refused 3 "faceprobe mesh faces" train face --config face.json --data faces -o run
+  expect_exit 0 mesh faces --threads 1
+  expect_exit 0 train face --config face.json --data faces --validation faces -o run --threads 1
+  expect_exit 0 eval geometry --data faces --weights mine=run/weights.safetensors --samples 4 -o scores --threads 1
+  expect_stdout "| mine |"
+  expect_stdout "| mesh |"
+  expect_files scores geometry.csv geometry.json geometry.png
+  expect_exit 0 eval shading --data faces --weights mine=run/weights.safetensors --samples 4 --threads 1
+  expect_stdout "| one albedo |"
+  expect_refused 5 "run/config.json" eval geometry --data faces --weights run/config.json
+  expect_refused 3 "nowhere" mesh nowhere
+}

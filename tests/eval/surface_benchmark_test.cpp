@@ -21,7 +21,7 @@ GeometryMethod off_by(const SmallFaces& faces, const std::string& name, double a
     const Eigen::Vector3f axis = normal.unitOrthogonal();
     normal = Eigen::AngleAxisf(static_cast<float>(radians(angle_deg)), axis) * Eigen::Vector3f(normal);
   }
-  return {name, [estimate](const GeometryInput&) { return estimate; }};
+  return {name, [estimate](const PhotoInput&) { return estimate; }};
 }
 
 TEST(GeometryBenchmark, MeasuresTheAngleTheStatedErrorAndTheRegions) {
@@ -43,7 +43,7 @@ TEST(GeometryBenchmark, MeasuresTheAngleTheStatedErrorAndTheRegions) {
 TEST(GeometryBenchmark, AMethodWithoutAFaceIsMissingAndHarmsNoOther) {
   const SmallFaces small;
   const synth::ShardReader faces(small.path());
-  const std::vector<GeometryMethod> methods = {{"blind", [](const GeometryInput&) { return GeometryEstimate{}; }},
+  const std::vector<GeometryMethod> methods = {{"blind", [](const PhotoInput&) { return GeometryEstimate{}; }},
                                                off_by(small, "right", 0, 1)};
   const GeometryScores scores = measure_geometry(faces, methods, {.samples = 3});
   EXPECT_EQ(scores.table.summary("normal", {.method = "blind"}).missing, 3U);
@@ -68,7 +68,7 @@ TEST(GeometryBenchmark, OverlapIsIntersectionOverUnion) {
       ++taken;
     }
   }
-  const std::vector<GeometryMethod> methods = {{"half", [&](const GeometryInput&) { return estimate; }}};
+  const std::vector<GeometryMethod> methods = {{"half", [&](const PhotoInput&) { return estimate; }}};
   const GeometryScores scores = measure_geometry(faces, methods, {.samples = 3});
   const auto& overlap = scores.region_overlap.at("half");
   EXPECT_NEAR(overlap[static_cast<std::size_t>(Region::kForehead)], forehead / (forehead + taken), 1e-12);
@@ -85,7 +85,7 @@ TEST(ShadingBenchmark, AScaleDoesNotMatterAndAColourDoes) {
       estimate.albedo.data()[i] *= 0.5F;
       estimate.shading.data()[i] *= i % 3 == 0 ? 3 * red : 3.0F;
     }
-    return [estimate](const ShadingInput&) { return estimate; };
+    return [estimate](const PhotoInput&) { return estimate; };
   };
   const ScoreTable table = measure_shading(faces, {{"scaled", scaled(1)}, {"red", scaled(1.5F)}}, {.samples = 3});
   EXPECT_NEAR(table.summary("albedo", {.method = "scaled"}).mean, 0, 0.01);
@@ -93,7 +93,8 @@ TEST(ShadingBenchmark, AScaleDoesNotMatterAndAColourDoes) {
   EXPECT_NEAR(table.summary("light_colour", {.method = "scaled"}).mean, 0, 0.1);
   // Between (1, 1.1, 1.2) and (1.5, 1.1, 1.2).
   const Eigen::Vector3d a(1, 1.1, 1.2), b(1.5, 1.1, 1.2);
-  EXPECT_NEAR(table.summary("light_colour", {.method = "red"}).mean, degrees(std::acos(a.dot(b) / a.norm() / b.norm())), 0.1);
+  EXPECT_NEAR(table.summary("light_colour", {.method = "red"}).mean, degrees(std::acos(a.dot(b) / a.norm() / b.norm())),
+              0.1);
 }
 
 TEST(ShadingBenchmark, TheErrorIsTheSineOfTheAngleBetweenThePictures) {

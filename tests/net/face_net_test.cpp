@@ -2,8 +2,7 @@
 
 #include "faceprobe/core/mirror.h"
 #include "faceprobe/core/region.h"
-#include "faceprobe/net/highlight_net.h"
-#include "faceprobe/net/torch_highlight_net.h"
+#include "net/face_layers.h"
 #include "net/face_outputs.h"
 #include "net/fixtures.h"
 #include "net/padded_picture.h"
@@ -23,6 +22,7 @@ using testing::random_picture;
 
 struct FaceNetTest : public ::testing::Test {
   FaceNetTest() {
+    options.in_channels = FaceInputs::kCount;
     options.out_channels = FaceOutputs::kCount;
     std::map<std::string, std::string> metadata = testing::unet_metadata(options);
     metadata[kArchitectureKey] = kFaceArchitecture;
@@ -46,40 +46,50 @@ TEST_F(FaceNetTest, SaysWhatTheTrainingSays) {
   load_weights(*net, path());
   PaddedPicture picture = pad_picture(random_picture(16, 8, 0, 1), {}, {}, 8);
   const torch::NoGradGuard no_grad;
-  const torch::Tensor raw = net(
-      torch::cat({tensor_view(picture.linear).clamp_min(1e-6).pow(1 / 2.2), tensor_view(picture.clip), tensor_view(picture.mask)},
-                 1) -
-      0.5);
-  const FaceSurface expected = surface_from_raw(raw);
+  // Its values have no meaning here, only their place.
+  Image mesh = random_picture(16, 8, -1, 1);
+  const FaceInput input = prepare_face_input(tensor_view(picture.linear), tensor_view(picture.clip),
+                                             tensor_view(picture.mask), tensor_view(mesh));
+  const FaceSurface expected = surface_from_raw(net(input.channels), input.gain);
   const torch::Tensor shading = expected.log_level.exp() * expected.colour;
   const torch::Tensor region = expected.region.argmax(1);
-  const FaceLayers layers = FaceNet(path(), {.threads = 1}).layers(picture.linear, {}, {});
+  const FaceLayers layers = FaceNet(path(), {.threads = 1}).layers(picture.linear, {}, {}, mesh);
   for (int y = 0; y < 8; ++y) {
     for (int x = 0; x < 16; ++x) {
       for (int c = 0; c < 3; ++c) {
         EXPECT_NEAR(layers.normal_cam(x, y, c), expected.normal[0][c][y][x].item<float>(), 1e-4F);
-        EXPECT_NEAR(layers.shading(x, y, c), shading[0][c][y][x].item<float>(), 1e-4F);
+        const float light = shading[0][c][y][x].item<float>();
+        EXPECT_NEAR(layers.shading(x, y, c), light, 1e-4F * (1 + light));
       }
-      EXPECT_NEAR(layers.normal_error_rad(x, y), expected.spread[0][0][y][x].item<float>(), 1e-4F);
+      const float spread = expected.spread[0][0][y][x].item<float>();
+      EXPECT_NEAR(layers.normal_error_rad(x, y), spread, 1e-4F * (1 + spread));
       EXPECT_NEAR(layers.depth_m(x, y), FaceOutputs::kDepthUnit * expected.depth[0][0][y][x].item<float>(), 1e-4F);
       EXPECT_EQ(layers.region(x, y), region[0][y][x].item<std::int64_t>());
     }
   }
 }
 
-TEST_F(FaceNetTest, ItsHighlightsAreThoseOfTheHighlightNetworksThatReadItsFile) {
-  const Image picture = random_picture(21, 18, 0, 1);
-  const Image own = FaceNet(path(), {.threads = 1}).layers(picture, {}, {}).highlight;
-  EXPECT_EQ(HighlightNet(path(), {.threads = 1}).highlight(picture, {}, {}), own);
-  const Image other = TorchHighlightNet(path(), {.threads = 1}).highlight(picture, {}, {});
-  for (std::size_t i = 0; i < own.values().size(); ++i) EXPECT_NEAR(own.data()[i], other.data()[i], 1e-4F);
+// A picture as bright again is the same picture to it.
+TEST_F(FaceNetTest, HalfTheLightGivesHalfOfEveryLayer) {
+  const FaceNet net(path(), {.threads = 1});
+  const Image picture = random_picture(24, 16, 0.01F, 1);
+  Image half = picture;
+  for (float& light : half.values()) light *= 0.5F;
+  const FaceLayers full = net.layers(picture, {}, {}, {});
+  const FaceLayers dimmed = net.layers(half, {}, {}, {});
+  for (std::size_t i = 0; i < picture.values().size(); ++i) {
+    EXPECT_NEAR(2 * dimmed.highlight.data()[i], full.highlight.data()[i], 1e-4F);
+    EXPECT_NEAR(2 * dimmed.shading.data()[i], full.shading.data()[i], 1e-4F * (1 + full.shading.data()[i]));
+    EXPECT_NEAR(dimmed.normal_cam.data()[i], full.normal_cam.data()[i], 1e-4F);
+  }
 }
 
 TEST_F(FaceNetTest, AMirroredPhotoHasTheMirroredLayers) {
   const FaceNet net(path(), {.threads = 1});
   const Image picture = random_picture(24, 16, 0, 1);
-  const FaceLayers layers = net.layers_both_ways(picture, {}, {});
-  const FaceLayers other = net.layers_both_ways(mirrored(picture), {}, {});
+  const Image mesh = random_picture(24, 16, -1, 1);
+  const FaceLayers layers = net.layers_both_ways(picture, {}, {}, mesh);
+  const FaceLayers other = net.layers_both_ways(mirrored(picture), {}, {}, mirrored_normals(mesh));
   for (int y = 0; y < 16; ++y) {
     for (int x = 0; x < 24; ++x) {
       EXPECT_NEAR(other.normal_cam(23 - x, y, 0), -layers.normal_cam(x, y, 0), 1e-6F);
@@ -95,7 +105,7 @@ TEST_F(FaceNetTest, HostilePicturesGiveLayersThatCanBeUsed) {
   picture(3, 4, 0) = std::numeric_limits<float>::quiet_NaN();
   picture(30, 20, 2) = std::numeric_limits<float>::infinity();
   picture(8, 9, 1) = std::numeric_limits<float>::max();
-  const FaceLayers layers = FaceNet(path(), {.threads = 1}).layers(picture, ByteImage(40, 24, 1, 7), {});
+  const FaceLayers layers = FaceNet(path(), {.threads = 1}).layers(picture, ByteImage(40, 24, 1, 7), {}, {});
   for (std::size_t i = 0; i < layers.region.values().size(); ++i) {
     const float* n = layers.normal_cam.data() + 3 * i;
     ASSERT_NEAR(std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]), 1, 1e-4F) << i;
@@ -106,13 +116,13 @@ TEST_F(FaceNetTest, HostilePicturesGiveLayersThatCanBeUsed) {
       ASSERT_GT(layers.shading.data()[3 * i + c], 0);
     }
   }
-  EXPECT_TRUE(FaceNet(path()).layers(Image(0, 5, 3), {}, {}).normal_cam.empty());
+  EXPECT_TRUE(FaceNet(path()).layers(Image(0, 5, 3), {}, {}, {}).normal_cam.empty());
 }
 
 TEST_F(FaceNetTest, AGreyPhotoHasGreyShading) {
   Image picture = random_picture(16, 16, 0, 1);
   for (std::size_t i = 0; i < picture.values().size(); i += 3) std::fill_n(picture.data() + i, 3, picture.data()[i]);
-  const FaceLayers layers = FaceNet(path()).layers_both_ways(picture, {}, {});
+  const FaceLayers layers = FaceNet(path()).layers_both_ways(picture, {}, {}, {});
   for (std::size_t i = 0; i < layers.shading.values().size(); i += 3) {
     EXPECT_EQ(layers.shading.data()[i], layers.shading.data()[i + 1]);
     EXPECT_EQ(layers.shading.data()[i], layers.shading.data()[i + 2]);
@@ -121,8 +131,8 @@ TEST_F(FaceNetTest, AGreyPhotoHasGreyShading) {
 
 TEST_F(FaceNetTest, SameForAnyNumberOfThreads) {
   const Image picture = random_picture(64, 48, 0, 1);
-  const FaceLayers one = FaceNet(path(), {.threads = 1}).layers(picture, {}, {});
-  const FaceLayers two = FaceNet(path(), {.threads = 2}).layers(picture, {}, {});
+  const FaceLayers one = FaceNet(path(), {.threads = 1}).layers(picture, {}, {}, {});
+  const FaceLayers two = FaceNet(path(), {.threads = 2}).layers(picture, {}, {}, {});
   EXPECT_EQ(one.normal_cam, two.normal_cam);
   EXPECT_EQ(one.shading, two.shading);
 }

@@ -60,6 +60,15 @@ TEST_F(Narrow, FurtherOutputsLeaveTheOldOnesAlone) {
   EXPECT_TRUE(torch::allclose(wide(picture).narrow(1, 0, small_options().out_channels), net(picture), 1e-5, 1e-6));
 }
 
+TEST_F(Narrow, FurtherInputsCountForNothingAtFirst) {
+  UNetOptions more = small_options();
+  more.in_channels += 3;
+  UNet wide(more);
+  load_widened(wide, path());
+  const torch::Tensor with_more = torch::cat({picture, torch::rand({2, 3, 16, 16})}, 1);
+  EXPECT_TRUE(torch::allclose(wide(with_more), net(picture), 1e-5, 1e-6));
+}
+
 TEST_F(Narrow, RefusesWhatIsNarrower) {
   UNetOptions less = small_options();
   less.widths.pop_back();

@@ -35,7 +35,7 @@ struct Known {
 };
 
 // Nothing but the one weight.
-LossConfig only(double LossConfig::* weight) {
+LossConfig only(double LossConfig::*weight) {
   LossConfig config;
   config.normal = config.spread = config.depth = config.region = config.shading = config.colour = 0;
   config.*weight = 1;
@@ -44,7 +44,8 @@ LossConfig only(double LossConfig::* weight) {
 
 TEST(FaceLoss, WhatIsRightCostsNothing) {
   const Known known;
-  for (const auto weight : {&LossConfig::normal, &LossConfig::depth, &LossConfig::region, &LossConfig::shading, &LossConfig::colour})
+  for (const auto weight :
+       {&LossConfig::normal, &LossConfig::depth, &LossConfig::region, &LossConfig::shading, &LossConfig::colour})
     EXPECT_NEAR(known.loss(only(weight)), 0, 1e-4);
 }
 

@@ -22,11 +22,16 @@ std::vector<PersonSet> small_people(int count) {
   std::vector<PersonSet> people;
   for (int i = 0; i < count; ++i) {
     const testing::Person person = testing::make_person(0.5F + 0.05F * static_cast<float>(i));
-    PersonSet set{
-        .name = "people/" + std::to_string(i), .photos = {}, .masks = {}, .regions = person.regions, .left_out = {}};
+    PersonSet set{.name = "people/" + std::to_string(i),
+                  .photos = {},
+                  .masks = {},
+                  .meshes = {},
+                  .regions = person.regions,
+                  .left_out = {}};
     for (const PersonPhoto& photo : person.photos) {
       set.photos.push_back(std::make_shared<const PersonPhoto>(photo));
       set.masks.emplace_back(photo.linear.width(), photo.linear.height(), 1, std::uint8_t{1});
+      set.meshes.emplace_back(photo.linear.width(), photo.linear.height(), 3);
     }
     people.push_back(std::move(set));
   }

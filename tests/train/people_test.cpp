@@ -6,6 +6,7 @@
 #include "faceprobe/io/data_files.h"
 #include "faceprobe/io/photo.h"
 #include "faceprobe/io/picture_file.h"
+#include "faceprobe/synth/shard.h"
 #include "train/person_loss.h"
 
 #include <gtest/gtest.h>
@@ -92,6 +93,41 @@ TEST_F(People, ASmileIsLeftOutByDefault) {
   std::string said;
   EXPECT_TRUE(load_people(folder_, {}, [&](const std::string& sentence) { said += sentence + "\n"; }).empty());
   EXPECT_NE(said.find("collins/0.png: The photo is left out because the expression"), std::string::npos) << said;
+}
+
+// A data set in which one person has four photos and another too few.
+TEST_F(People, PeopleOfADataSetAreReadByTheirNumbers) {
+  const ByteImage photo = encode_srgb(portrait_);
+  ASSERT_EQ(photo.width(), photo.height());
+  const int size = photo.width();
+  std::vector<synth::ViewSamples> views(2);
+  for (int person = 0; person < 2; ++person) {
+    synth::ViewSamples& view = views[static_cast<std::size_t>(person)];
+    view.view.normal = Image(size, size, 3);
+    view.view.depth_m = Image(size, size, 1);
+    view.view.region = view.view.owner = ByteImage(size, size, 1, 1);
+    view.view.faces.resize(1);
+    view.view.faces[0].person = 7 + person;
+    for (int i = 0; i < (person == 0 ? 4 : 2); ++i) {
+      synth::Sample sample;
+      sample.photo = photo;
+      sample.clip = ByteImage(size, size, 1);
+      sample.highlight = sample.diffuse = sample.albedo = sample.shading = Image(size, size, 3);
+      sample.environment = EnvMap(4, 2);
+      sample.settings_json = "{}";
+      view.samples.push_back(std::move(sample));
+    }
+  }
+  const synth::ShardWriter writer(folder_ / "faces", {.size_px = size, .environment_height = 2, .recipe = "{}"});
+  writer.write(0, views);
+  writer.finish(1, "");
+  const PeopleOptions options{.least_photos = 4, .max_expression = kSmile};
+  const std::vector<PersonSet> people = load_synthetic_people(folder_ / "faces", 10, options);
+  ASSERT_EQ(people.size(), 1U);
+  EXPECT_EQ(people[0].name, "person 7");
+  EXPECT_EQ(people[0].photos.size(), 4U);
+  EXPECT_THROW(load_synthetic_people(folder_ / "faces", 0, options), Error);
+  EXPECT_THROW(load_synthetic_people(folder_ / "absent", 1, options), Error);
 }
 
 TEST_F(People, FoldersThatAreNotThereOrEmptyAreRefused) {

@@ -75,6 +75,10 @@ class DataFolder {
     const std::vector<synth::ViewSamples> views = {spotted_discs(size, samples, 7)};
     writer.write(0, views);
     writer.finish(1, "");
+    // A mesh that knows the face's place and that it looks at the camera.
+    synth::FoundMesh mesh{Image(size, size, 3), views[0].view.region};
+    for (std::size_t i = 0; i < mesh.normal_cam.values().size(); i += 3) mesh.normal_cam.data()[i + 2] = 1;
+    synth::write_meshes(path_ / "data", 0, std::vector<synth::FoundMesh>{mesh});
   }
   ~DataFolder() {
     std::error_code ignored;

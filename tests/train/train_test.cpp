@@ -96,6 +96,23 @@ TEST(Train, TheFaceNetworkLearnsTheSurfaceBesideTheHighlights) {
   EXPECT_LE(last.normal_deg, first.normal_deg);
 }
 
+TEST(Train, TheFaceNetworkNeedsMeshes) {
+  const DataFolder folder("no_mesh", 32, 8);
+  std::filesystem::remove(folder.data() / synth::mesh_name(0));
+  TrainRun run;
+  run.config = tiny_config();
+  run.config.architecture = "face";
+  run.data = folder.data();
+  run.folder = folder.run("run");
+  try {
+    train_highlight(run, {});
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kInput);
+    EXPECT_NE(std::string(error.what()).find("faceprobe mesh"), std::string::npos) << error.what();
+  }
+}
+
 TEST(Train, ThePapersNetworkTrainsToo) {
   const DataFolder folder("mscr", 32, 8);
   TrainRun run;
@@ -128,7 +145,7 @@ TEST(TrainConfig, SaysWhatIsWrong) {
   refused(R"({"batch": "many"})", "batch");
   refused(R"({"batch": 0})", "1 to 4096");
   refused(R"({"learning_rate": 2})", "1e-9 to 1");
-  refused(R"({"architecture": "vgg"})", "unet and mscr");
+  refused(R"({"architecture": "vgg"})", "unet, face and mscr");
   const TrainConfig config = train_config_from_json(R"({"batch": 3, "network": {"widths": [8, 8]}})");
   EXPECT_EQ(config.batch, 3);
   EXPECT_EQ(to_json(train_config_from_json(to_json(config))), to_json(config));
@@ -141,7 +158,9 @@ TEST(TrainLog, HasALineForEachRowAndACurve) {
   rows[2].validation = {4, 5, 8, 9};
   const std::string csv = to_csv(rows);
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 4);
-  EXPECT_NE(csv.find("150,0.0333333,0.001,20.00,4.0000,5.0000,8.0000,9.0000,0.000,0.0000,0.0000,0.000\n"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("150,0.0333333,0.001,20.00,4.0000,5.0000,8.0000,9.0000,0.000,0.0000,0.0000,0.000\n"),
+            std::string::npos)
+      << csv;
   const ByteImage picture = draw_curves(rows);
   int dark = 0;
   for (std::size_t i = 0; i < picture.pixel_count(); ++i) dark += picture.data()[3 * i] < 60 ? 1 : 0;

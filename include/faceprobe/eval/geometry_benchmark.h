@@ -8,6 +8,7 @@
 
 #include "faceprobe/core/image.h"
 #include "faceprobe/core/region.h"
+#include "faceprobe/eval/photo_input.h"
 #include "faceprobe/eval/score_table.h"
 #include "faceprobe/face/face.h"
 #include "faceprobe/synth/shard.h"
@@ -21,14 +22,6 @@
 
 namespace faceprobe::eval {
 
-struct GeometryInput {
-  const Image& linear;     // H x W x 3
-  const ByteImage& photo;  // H x W x 3, sRGB: the same
-  const ByteImage& clip;   // H x W x 1, bits of the clipped channels
-  const ByteImage& mask;   // H x W x 1: the face
-  face::Camera camera;
-};
-
 // Pictures of the input's size. Empty normals: the method found no face.
 struct GeometryEstimate {
   Image normal_cam;        // 3 channels, unit, camera frame; 0 where the method has none
@@ -38,7 +31,7 @@ struct GeometryEstimate {
 
 struct GeometryMethod {
   std::string name;
-  std::function<GeometryEstimate(const GeometryInput&)> find;
+  std::function<GeometryEstimate(const PhotoInput&)> find;
 };
 // The dense face mesh, posed and rasterised: what the light is read from without a network. The finder must be used by nobody else
 // meanwhile. Throws Error(kModel) when the mesh's file is missing.
@@ -61,9 +54,9 @@ struct GeometryScores {
   // Metrics of each row, degrees: normal and normal_median over the skin, normal_forehead, ... over parts of it that the photo shows at
   // least 20 pixels of. Only pixels count for which every method that found the face has a normal. Groups: tone, turn (of the head).
   ScoreTable table;
-  std::map<std::string, std::vector<CalibrationBin>> calibration;           // of methods that state an error
+  std::map<std::string, std::vector<CalibrationBin>> calibration;          // of methods that state an error
   std::map<std::string, std::array<double, kRegionCount>> region_overlap;  // intersection over union, over all photos
-  std::map<std::string, double> skin_overlap;                               // of the ten skin regions taken as one
+  std::map<std::string, double> skin_overlap;                              // of the ten skin regions taken as one
 
   double mean_overlap(const std::string& method) const;  // over the regions that there are
 };

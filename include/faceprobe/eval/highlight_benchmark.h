@@ -7,9 +7,10 @@
 //   std::cout << scores.markdown("rmse_skin", 2);
 //
 // Two views of each photo: the face alone, which is what the light is read from (the method is given the face's mask and judged on its
-// skin), and the whole crop (no mask; hair, clothes and background count).
+// skin), and the whole crop (no mask and no mesh; hair, clothes and background count).
 
 #include "faceprobe/core/image.h"
+#include "faceprobe/eval/photo_input.h"
 #include "faceprobe/eval/score_table.h"
 #include "faceprobe/synth/shard.h"
 
@@ -21,8 +22,7 @@ namespace faceprobe::eval {
 
 struct HighlightMethod {
   std::string name;
-  // linear: H x W x 3; clip: H x W x 1, bits of the clipped channels; mask: H x W x 1, empty = everywhere. Result: H x W x 3.
-  std::function<Image(const Image& linear, const ByteImage& clip, const ByteImage& mask)> highlight;
+  std::function<Image(const PhotoInput&)> highlight;  // H x W x 3
 };
 // No highlight at all: what everything has to be better than.
 HighlightMethod black_method();

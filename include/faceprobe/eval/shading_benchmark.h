@@ -6,6 +6,7 @@
 //   std::cout << scores.markdown("shading", 3) << scores.markdown("light_colour", 1);
 
 #include "faceprobe/core/image.h"
+#include "faceprobe/eval/photo_input.h"
 #include "faceprobe/eval/score_table.h"
 #include "faceprobe/synth/shard.h"
 
@@ -15,13 +16,6 @@
 
 namespace faceprobe::eval {
 
-struct ShadingInput {
-  const Image& linear;      // H x W x 3: the photo
-  const ByteImage& clip;    // H x W x 1, bits of the clipped channels
-  const ByteImage& mask;    // H x W x 1: the face
-  const ByteImage& region;  // H x W x 1: the true Region, for methods that have to be given it
-};
-
 struct ShadingEstimate {  // H x W x 3 each; what matters is the skin
   Image albedo;
   Image shading;
@@ -29,7 +23,7 @@ struct ShadingEstimate {  // H x W x 3 each; what matters is the skin
 
 struct ShadingMethod {
   std::string name;
-  std::function<ShadingEstimate(const ShadingInput&)> split;
+  std::function<ShadingEstimate(const PhotoInput&)> split;
 };
 // The whole photo as shading, on a skin of one colour: what everything has to be better than.
 ShadingMethod one_albedo_method();

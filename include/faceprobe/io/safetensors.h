@@ -3,7 +3,7 @@
 // from the file; every offset, shape and size is checked before a byte of it is used, and the tensors must cover the data
 // exactly, without holes or overlaps.
 //
-//   const TensorFile file = read_safetensors("models/highlight.safetensors");
+//   const TensorFile file = read_safetensors("models/face.safetensors");
 //   const Tensor& w = file.tensor("enc1.weight", {32, 3, 3, 3});   // throws when missing or of another shape
 
 #include <cstdint>

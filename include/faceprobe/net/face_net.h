@@ -4,7 +4,7 @@
 // crop of one face at about the size it was trained at (128 px); it was trained on faces only. Runs on the processor.
 //
 //   const net::FaceNet network("models/face.safetensors", {.threads = 0});
-//   const net::FaceLayers layers = network.layers(crop, clip, mask);
+//   const net::FaceLayers layers = network.layers(crop, clip, mask, mesh_normals);
 //   Eigen::Vector3f normal(layers.normal_cam.pixel(x, y));
 //   // diffuse = crop - layers.highlight; albedo = diffuse / layers.shading
 //
@@ -46,11 +46,15 @@ class FaceNet {
   FaceNet& operator=(FaceNet&&) noexcept;
   ~FaceNet();
 
-  // Pictures as HighlightNet::highlight takes them; a grey one gives grey highlights and grey shading. May be called from several
-  // threads. Throws std::invalid_argument when sizes or channels differ.
-  FaceLayers layers(const Image& linear, const ByteImage& clip, const ByteImage& mask) const;
+  // Pictures as HighlightNet::highlight takes them; a grey one gives grey highlights and grey shading. `mesh_normal_cam`: H x W x 3, the
+  // normals of the dense mesh as face::rasterize has them, zero off it; empty = there is no mesh, and much is a guess. Half the light gives
+  // half of every layer, but for what is clipped. May be called from several threads. Throws std::invalid_argument when sizes or channels
+  // differ.
+  FaceLayers layers(const Image& linear, const ByteImage& clip, const ByteImage& mask,
+                    const Image& mesh_normal_cam) const;
   // Mean of what it sees in the picture and in its mirror image; takes twice the time. The region is the picture's own.
-  FaceLayers layers_both_ways(const Image& linear, const ByteImage& clip, const ByteImage& mask) const;
+  FaceLayers layers_both_ways(const Image& linear, const ByteImage& clip, const ByteImage& mask,
+                              const Image& mesh_normal_cam) const;
 
   const ModelInfo& info() const;
 

@@ -2,7 +2,7 @@
 // What a weights file says about itself: a .safetensors file whose metadata names the network ("architecture") and its options
 // ("options", JSON), so that the file alone is enough to build it.
 //
-//   const net::ModelInfo info = net::read_model_info("models/highlight.safetensors");
+//   const net::ModelInfo info = net::read_model_info("models/face.safetensors");
 //   std::cout << info.architecture << ", " << info.parameter_count << " numbers\n";
 
 #include <cstdint>

@@ -17,8 +17,9 @@ struct PhotoLayers {
 // Where it is, the diffuse layer keeps its value and the highlight is what is left below white.
 PhotoLayers photo_layers(const Sample& sample);
 
-// The convex hull of the dense landmarks, grown by `scale` about its middle, less eyes and mouth (`region`): what the face mesh covers.
-// Without landmarks: all skin. H x W x 1 of 0 and 1.
+// The convex hull of the dense landmarks, grown by `scale` about its middle, less eyes and mouth (`region`): what the face mesh covers,
+// hair before it included. Without those, the 68 landmarks with a forehead of usual height above them; without either all skin.
+// H x W x 1 of 0 and 1.
 ByteImage face_mask(const ViewLayers& view, float scale);
 
 // The face's own skin (the ten regions but neck and ears), H x W x 1 of 0 and 1.

@@ -47,6 +47,15 @@ class ShardWriter {
   ShardSpec spec_;
 };
 
+// What the dense face mesh, found in a view's photos, covers there: what an estimate has to go by. Zero where it is not, and everywhere
+// when no face was found.
+struct FoundMesh {
+  Image normal_cam;  // 3 channels
+  ByteImage region;  // 1 channel, Region
+};
+// Beside shard number `shard` of the folder; of all its views in order. Appears whole or not at all. Throws Error(kOutput).
+void write_meshes(const std::filesystem::path& folder, int shard, std::span<const FoundMesh> views);
+
 class ShardReader {
  public:
   // Throws Error(kInput): no index.json, or shards that are not what it says.
@@ -61,16 +70,26 @@ class ShardReader {
   // The same with the photo, its clipped pixels and its two layers of light alone, or with regions and faces alone: a third of the bytes.
   Sample copy_light(int number) const;
   ViewLayers copy_faces(int number) const;
+  // Number of the person that the sample shows, in a group of the first; -1 where it shows none.
+  int person(int number) const;
+  // Shard of a sample and number in it of the view it shows.
+  std::pair<int, int> view_place(int number) const;
+
+  // Whether `faceprobe mesh` has been here.
+  bool has_meshes() const { return !meshes_.empty(); }
+  FoundMesh copy_mesh(int number) const;
 
  private:
   int view_of(int number) const;
 
   std::vector<io::MappedTensors> shards_;
+  std::vector<io::MappedTensors> meshes_;   // one a shard, or none
   std::vector<std::pair<int, int>> place_;  // of each sample: shard, number in it
   std::string recipe_;
 };
 
-// "shard-00012.safetensors"
+// "shard-00012.safetensors", "mesh-00012.safetensors"
 std::string shard_name(int shard);
+std::string mesh_name(int shard);
 
 }  // namespace faceprobe::synth

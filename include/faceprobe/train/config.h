@@ -30,12 +30,12 @@ struct LossConfig {
   double similarity = 0;    // weight of one minus the structural similarity
   double elsewhere = 0.25;  // weight of a pixel that is not the face's skin, which has 1
   // Of the face network's other outputs (architecture "face").
-  double normal = 0.1;    // weight of the normals' error, a chord of the unit sphere
-  double spread = 0.02;   // weight of how well the error that is stated fits the one that is made
-  double depth = 0.01;    // weight of the depth's error, of 5 cm
-  double region = 0.03;   // weight of the regions' cross entropy
-  double shading = 0.1;   // weight of the error of the shading's logarithm
-  double colour = 0.1;    // weight of the error of the light's colour, a chord of the unit sphere
+  double normal = 0.1;   // weight of the normals' error, a chord of the unit sphere
+  double spread = 0.02;  // weight of how well the error that is stated fits the one that is made
+  double depth = 0.01;   // weight of the depth's error, of 5 cm
+  double region = 0.03;  // weight of the regions' cross entropy
+  double shading = 0.1;  // weight of the error of the shading's logarithm
+  double colour = 0.1;   // weight of the error of the light's colour, a chord of the unit sphere
 };
 
 struct TrainConfig {

@@ -5,7 +5,7 @@
 //
 //   train::FinetuneRun run;
 //   run.people = train::load_people("real/finetune", {});       // one folder a person
-//   run.start = "models/highlight.safetensors";  run.synthetic = "faces/train";  run.folder = "runs/finetuned";
+//   run.start = "models/face.safetensors";  run.synthetic = "faces/train";  run.folder = "runs/finetuned";
 //   const train::FinetuneReport report = train::finetune_highlight(run, {});
 //
 // Weights inherit the terms of the photos they have seen.
@@ -29,6 +29,8 @@ struct FinetuneConfig {
   int synthetic_batch = 8;  // synthetic faces in a step; 0 = none
   double learning_rate = 1e-4;
   double weight = 3.0;  // of the loss on people against that on synthetic faces
+  // Within the loss on people, of the hold on each photo's mean highlight; see PersonLossOptions. None in paper mode.
+  double energy_weight = 0.5;
   double largest_gradient = 1.0;
   double held_out_share = 0.25;  // of the people, to measure on
   std::uint64_t seed = 1;
@@ -74,7 +76,7 @@ struct FinetuneHooks {
   std::function<bool()> stop;
 };
 
-// Throws Error: kInput (weights of another architecture than unet, too few people), kUsage, kOutput, kUnexpected (the loss is no number).
+// Throws Error: kInput (weights of another architecture than unet and face, too few people), kUsage, kOutput, kUnexpected (the loss is no number).
 FinetuneReport finetune_highlight(const FinetuneRun& run, const FinetuneHooks& hooks);
 
 }  // namespace faceprobe::train

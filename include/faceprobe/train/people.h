@@ -37,6 +37,7 @@ struct PersonSet {
   std::string name;
   std::vector<std::shared_ptr<const PersonPhoto>> photos;  // shared: a photo is part of many batches
   std::vector<ByteImage> masks;                            // skin in each crop, non-zero = skin
+  std::vector<Image> meshes;                               // the mesh's normals in each crop, 0 off it
   ByteImage regions;                                       // of the square
   std::vector<std::string> left_out;                       // "NAME: why"
   int calibrated = 0;                                      // photos whose curve was not sRGB's
@@ -47,5 +48,11 @@ struct PersonSet {
 // every photo left out and for every person.
 std::vector<PersonSet> load_people(const std::filesystem::path& folder, const PeopleOptions& options,
                                    const std::function<void(const std::string&)>& progress = {});
+
+// The same of the people in a folder that `faceprobe synth` wrote: their photos as a camera wrote them, each under another light, and no
+// photo of a real person among them. `most_people`: spread evenly over those that there are.
+std::vector<PersonSet> load_synthetic_people(const std::filesystem::path& folder, int most_people,
+                                             const PeopleOptions& options,
+                                             const std::function<void(const std::string&)>& progress = {});
 
 }  // namespace faceprobe::train

@@ -2,12 +2,25 @@
 
 #include "net/face_outputs.h"
 #include "net/head.h"
+#include "net/torch/highlight_head.h"
 
 #include <stdexcept>
 
 namespace faceprobe::net {
 
-FaceSurface surface_from_raw(const torch::Tensor& raw) {
+FaceInput prepare_face_input(const torch::Tensor& linear, const torch::Tensor& clip, const torch::Tensor& mask,
+                             const torch::Tensor& mesh) {
+  if (mesh.dim() != 4 || mesh.size(1) != 3)
+    throw std::invalid_argument("face head: the mesh's normals must be N x 3 x H x W");
+  const torch::Tensor light = luminance(linear).clamp(0, Head::kBrightest);
+  const torch::Tensor faces = mask.sum({1, 2, 3}, true);
+  const torch::Tensor weight = torch::where(faces > 0, mask, torch::ones_like(mask));
+  const torch::Tensor mean = (light * weight).sum({1, 2, 3}, true) / weight.sum({1, 2, 3}, true);
+  const torch::Tensor gain = FaceInputs::kMiddle / mean.clamp_min(FaceInputs::kDarkest);
+  return {torch::cat({prepare_input(linear * gain, clip, mask), mesh.to(linear.scalar_type())}, 1), gain};
+}
+
+FaceSurface surface_from_raw(const torch::Tensor& raw, const torch::Tensor& gain) {
   using Out = FaceOutputs;
   if (raw.dim() != 4 || raw.size(1) != Out::kCount) {
     throw std::invalid_argument("face head: the raw output must be N x " + std::to_string(Out::kCount) + " x H x W");
@@ -23,7 +36,7 @@ FaceSurface surface_from_raw(const torch::Tensor& raw) {
   return {free / length,
           Out::kUsualError * logarithm(Out::kSpread).exp(),
           full.narrow(1, Out::kDepth, 1),
-          logarithm(Out::kShading),
+          logarithm(Out::kShading) - gain.log(),
           colour / colour.mean(1, true),
           full.narrow(1, Out::kRegion, kRegionCount)};
 }

@@ -12,10 +12,6 @@ void require_channels(const torch::Tensor& tensor, int channels, const char* wha
   }
 }
 
-torch::Tensor luminance(const torch::Tensor& light) {
-  return 0.2126 * light.narrow(1, 0, 1) + 0.7152 * light.narrow(1, 1, 1) + 0.0722 * light.narrow(1, 2, 1);
-}
-
 // b I / (b^4 + I^4)^(1/4), which is I f(b / I). By way of the smaller and the larger of the two nothing is divided by zero,
 // nothing overflows, and the result is at most the smaller in floating point too.
 torch::Tensor smooth_min(const torch::Tensor& b, const torch::Tensor& light) {
@@ -25,6 +21,10 @@ torch::Tensor smooth_min(const torch::Tensor& b, const torch::Tensor& light) {
 }
 
 }  // namespace
+
+torch::Tensor luminance(const torch::Tensor& light) {
+  return 0.2126 * light.narrow(1, 0, 1) + 0.7152 * light.narrow(1, 1, 1) + 0.0722 * light.narrow(1, 2, 1);
+}
 
 torch::Tensor prepare_input(const torch::Tensor& linear, const torch::Tensor& clip, const torch::Tensor& mask) {
   require_channels(linear, 3, "the picture");

@@ -10,6 +10,9 @@
 
 namespace faceprobe::net {
 
+// N x 3 x H x W to N x 1 x H x W, Rec.709.
+torch::Tensor luminance(const torch::Tensor& light);
+
 // `linear`: N x 3 x H x W, light, finite; negative counts as 0. `clip`: N x 3 x H x W, 1 where the photo was clipped, else 0.
 // `mask`: N x 1 x H x W, 1 on the face. Flags of any type become that of `linear`. Result: N x 7 x H x W, every channel between
 // -0.5 and 0.5 as long as the light is below the photo's white. Light is encoded as x^(1/2.2): dark and bright skin get a like

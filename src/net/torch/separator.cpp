@@ -2,7 +2,6 @@
 
 #include "faceprobe/core/error.h"
 #include "io/safetensors_header.h"
-#include "net/face_outputs.h"
 #include "net/torch/highlight_head.h"
 #include "net/torch/mscr.h"
 #include "net/torch/unet.h"
@@ -18,12 +17,10 @@ void prepare(torch::nn::Module& module, const io::TensorFile& file, const torch:
 }
 
 Separator unet_separator(const ModelInfo& info, const io::TensorFile& file, const torch::Device& device) {
-  const int outputs = info.architecture == kFaceArchitecture ? FaceOutputs::kCount : kRawChannels;
-  UNet net(separator_options(info.options_json, outputs));
+  UNet net(separator_options(info.options_json));
   prepare(*net, file, device);
   return {net->multiple(), [net](const auto& linear, const auto& clip, const auto& mask) mutable {
-            const torch::Tensor raw = net(prepare_input(linear, clip, mask));
-            return highlight_from_raw(raw.narrow(1, 0, kRawChannels), linear);
+            return highlight_from_raw(net(prepare_input(linear, clip, mask)), linear);
           }};
 }
 
@@ -38,11 +35,10 @@ Separator mscr_separator(const ModelInfo& info, const io::TensorFile& file, cons
 }  // namespace
 
 Separator make_separator(const ModelInfo& info, const io::TensorFile& file, const torch::Device& device) {
-  if (info.architecture == kUNetArchitecture || info.architecture == kFaceArchitecture)
-    return unet_separator(info, file, device);
+  if (info.architecture == kUNetArchitecture) return unet_separator(info, file, device);
   if (info.architecture == kMscrArchitecture) return mscr_separator(info, file, device);
   throw Error(ExitCode::kModel, "The weights are of a network " + io::quoted(info.architecture) +
-                                    "; this version runs unet, face and mscr. Use weights made for it.");
+                                    "; this version runs unet and mscr. Use weights made for it.");
 }
 
 }  // namespace faceprobe::net

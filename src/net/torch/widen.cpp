@@ -32,6 +32,13 @@ Copies copies_of(std::int64_t before, std::int64_t after) {
   return {torch::tensor(source), torch::tensor(share)};
 }
 
+// The first layer's inputs are no features either: further ones begin without a say.
+torch::Tensor with_more_inputs(const torch::Tensor& before, const torch::Tensor& like) {
+  torch::Tensor all = torch::zeros({before.size(0), like.size(1), before.size(2), before.size(3)});
+  all.narrow(1, 0, before.size(1)).copy_(before);
+  return all;
+}
+
 torch::Tensor widened(const torch::Tensor& before, const torch::Tensor& like, double noise) {
   const Copies out = copies_of(before.size(0), like.size(0));
   torch::Tensor after = before.index_select(0, out.source);
@@ -57,7 +64,7 @@ torch::Tensor with_more_outputs(const torch::Tensor& before, const torch::Tensor
 
 void check_fits(const UNetOptions& narrow, const UNetOptions& wide) {
   bool fits = narrow.widths.size() == wide.widths.size() && narrow.convs_per_level == wide.convs_per_level &&
-              narrow.in_channels == wide.in_channels && narrow.out_channels <= wide.out_channels;
+              narrow.in_channels <= wide.in_channels && narrow.out_channels <= wide.out_channels;
   for (std::size_t i = 0; fits && i < narrow.widths.size(); ++i) fits = narrow.widths[i] <= wide.widths[i];
   if (!fits) {
     throw Error(ExitCode::kModel, "The network to begin with is " + options_json(narrow) + ", the one to train " +
@@ -78,7 +85,8 @@ void load_widened(UNet& net, const std::filesystem::path& weights, double noise)
   const auto before = narrow->named_parameters();
   for (const auto& item : net->named_parameters()) {
     const bool head = item.key().starts_with("head.");
-    const torch::Tensor& old = before[item.key()];
+    torch::Tensor old = before[item.key()];
+    if (item.key() == "encoder.0.units.0.conv.weight") old = with_more_inputs(old, item.value());
     torch::Tensor(item.value()).copy_(head ? with_more_outputs(old, item.value()) : widened(old, item.value(), noise));
   }
 }

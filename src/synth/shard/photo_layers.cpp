@@ -51,6 +51,30 @@ void fill_convex(const std::vector<Point>& hull, ByteImage& mask) {
   }
 }
 
+// What the dense mesh covers, about, from the 68 landmarks: they end at the brows, the mesh nearly at the hair. A forehead is about as
+// high as the nose is long; most of that is laid on top of the brows, narrower towards the hair.
+std::vector<Point> with_forehead(const Eigen::MatrixX2f& landmarks68) {
+  constexpr Eigen::Index kFirstBrow = 17, kLastBrow = 26, kNoseBase = 33;
+  constexpr float kHeight = 0.8F, kNarrower = 0.85F;
+  std::vector<Point> points;
+  for (const auto& row : landmarks68.rowwise()) points.emplace_back(row.transpose());
+  const Point middle = landmarks68.middleRows(kFirstBrow, kLastBrow - kFirstBrow + 1).colwise().mean().transpose();
+  const Point up = middle - points[kNoseBase];
+  for (Eigen::Index i = kFirstBrow; i <= kLastBrow; ++i) {
+    const Point brow = points[static_cast<std::size_t>(i)];
+    points.emplace_back(middle + kNarrower * (brow - middle) + kHeight * up);
+  }
+  return points;
+}
+
+std::vector<Point> outline_points(const FaceMarks& face) {
+  if (face.dense_landmarks_px.rows() < 3)
+    return face.landmarks_px.rows() == 68 ? with_forehead(face.landmarks_px) : std::vector<Point>{};
+  std::vector<Point> points;
+  for (const auto& row : face.dense_landmarks_px.rowwise()) points.emplace_back(row.transpose());
+  return points;
+}
+
 }  // namespace
 
 PhotoLayers photo_layers(const Sample& sample) {
@@ -76,11 +100,11 @@ PhotoLayers photo_layers(const Sample& sample) {
 ByteImage face_mask(const ViewLayers& view, float scale) {
   ByteImage mask(view.region.width(), view.region.height(), 1);
   for (const FaceMarks& face : view.faces) {
-    if (face.dense_landmarks_px.rows() < 3) return skin_mask(view);
-    const Eigen::RowVector2f middle = face.dense_landmarks_px.colwise().mean();
-    std::vector<Point> points;
-    for (const auto& row : face.dense_landmarks_px.rowwise())
-      points.emplace_back((middle + scale * (row - middle)).transpose());
+    std::vector<Point> points = outline_points(face);
+    if (points.empty()) return skin_mask(view);
+    Point middle = Point::Zero();
+    for (const Point& point : points) middle += point / static_cast<float>(points.size());
+    for (Point& point : points) point = middle + scale * (point - middle);
     fill_convex(convex_hull(std::move(points)), mask);
   }
   for (std::size_t i = 0; i < mask.values().size(); ++i) {

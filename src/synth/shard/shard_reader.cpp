@@ -106,6 +106,14 @@ ShardReader::ShardReader(const std::filesystem::path& folder) {
     for (std::int64_t i = 0; i < count; ++i)
       place_.emplace_back(static_cast<int>(shards_.size()) - 1, static_cast<int>(i));
   }
+  for (std::size_t i = 0; i < shards_.size(); ++i) {
+    const std::filesystem::path mesh = folder / mesh_name(static_cast<int>(i));
+    if (!std::filesystem::exists(mesh)) break;
+    meshes_.emplace_back(mesh);
+    if (meshes_.back().shape("view.mesh_region").at(0) != shards_[i].shape("view.person").at(0))
+      throw Error(ExitCode::kInput, mesh.string() + " is of another shard. Run `faceprobe mesh` again.");
+  }
+  if (meshes_.size() != shards_.size()) meshes_.clear();
 }
 
 std::pair<const MappedTensors*, int> ShardReader::place(int sample) const {
@@ -150,6 +158,23 @@ int ShardReader::view_of(int number) const {
                                       " names a view that is not there: the shard is damaged. Make it again.");
   }
   return at;
+}
+
+int ShardReader::person(int number) const {
+  const io::MappedTensors* file = place(number).first;
+  const auto faces = static_cast<std::size_t>(file->shape("view.person").at(1));
+  const std::span<const std::int32_t> person = file->values<std::int32_t>("view.person", {-1, -1});
+  return faces == 0 ? -1 : person[static_cast<std::size_t>(view_of(number)) * faces];
+}
+
+std::pair<int, int> ShardReader::view_place(int number) const {
+  return {place_.at(static_cast<std::size_t>(number)).first, view_of(number)};
+}
+
+FoundMesh ShardReader::copy_mesh(int number) const {
+  const auto [shard, view] = view_place(number);
+  const MappedTensors& file = meshes_.at(static_cast<std::size_t>(shard));
+  return {image_of(file, "view.mesh_normal", view, 3), bytes_of(file, "view.mesh_region", view, 1)};
 }
 
 ViewLayers ShardReader::copy_view(int number) const {

@@ -214,6 +214,21 @@ std::string shard_name(int shard) {
   return name.data();
 }
 
+std::string mesh_name(int shard) { return "mesh" + shard_name(shard).substr(std::string("shard").size()); }
+
+void write_meshes(const std::filesystem::path& folder, int shard, std::span<const FoundMesh> views) {
+  io::TensorFileBuilder file;
+  const std::size_t height = views.empty() ? 0 : static_cast<std::size_t>(views[0].region.height());
+  const std::size_t width = views.empty() ? 0 : static_cast<std::size_t>(views[0].region.width());
+  const auto normal = file.add<Half>("view.mesh_normal", shape({views.size(), height, width, 3}));
+  const auto region = file.add<std::uint8_t>("view.mesh_region", shape({views.size(), height, width}));
+  for (std::size_t v = 0; v < views.size(); ++v) {
+    put_half(views[v].normal_cam, normal, v);
+    put_bytes(views[v].region, region, v);
+  }
+  file.write(folder / mesh_name(shard));
+}
+
 ShardWriter::ShardWriter(std::filesystem::path folder, ShardSpec spec)
     : folder_(std::move(folder)), spec_(std::move(spec)) {
   io::create_folder(folder_);

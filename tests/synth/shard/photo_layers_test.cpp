@@ -67,5 +67,27 @@ TEST(FaceMask, IsTheHullOfTheLandmarksWithoutEyes) {
   EXPECT_EQ(grown, 30 * 30 - 1);
 }
 
+// Jaw at the bottom, brows on a line, the nose's base a known way below them.
+TEST(FaceMask, OfThe68LandmarksHasAForehead) {
+  ViewLayers view;
+  view.region = ByteImage(100, 100, 1, static_cast<std::uint8_t>(Region::kForehead));
+  view.faces.resize(1);
+  Eigen::MatrixX2f& marks = view.faces[0].landmarks_px;
+  marks.resize(68, 2);
+  for (Eigen::Index i = 0; i < 68; ++i) marks.row(i) << 50, 60;
+  marks.row(0) << 20, 50;  // the jaw's ends and the chin
+  marks.row(16) << 80, 50;
+  marks.row(8) << 50, 90;
+  for (Eigen::Index i = 17; i <= 26; ++i) marks.row(i) << 30 + 40 * static_cast<float>(i - 17) / 9, 45;
+  marks.row(33) << 50, 65;
+  const ByteImage mask = face_mask(view, 1.0F);
+  EXPECT_EQ(mask(50, 88), 1);
+  EXPECT_EQ(mask(50, 92), 0);
+  // 20 pixels from brows to nose: the hull ends 16 above the brows.
+  EXPECT_EQ(mask(50, 30), 1);
+  EXPECT_EQ(mask(50, 27), 0);
+  EXPECT_EQ(mask(20, 30), 0);
+}
+
 }  // namespace
 }  // namespace faceprobe::synth

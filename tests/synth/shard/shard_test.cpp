@@ -132,6 +132,31 @@ TEST_F(Shards, GiveBackWhatWasWritten) {
   EXPECT_EQ(reader.recipe(), R"({"seed":1})");
 }
 
+TEST_F(Shards, MeshesComeBackForTheSamplesOfTheirViews) {
+  Random random({4});
+  const std::vector<ViewSamples> views = {exact_view(random, 2, 1), exact_view(random, 1, 1)};
+  const ShardWriter writer(folder_, spec());
+  writer.write(0, views);
+  writer.finish(1, "");
+  EXPECT_FALSE(ShardReader(folder_).has_meshes());
+  std::vector<FoundMesh> meshes;
+  for (int v = 0; v < 2; ++v)
+    meshes.push_back(
+        {exact_image(random, kSize, kSize, 3), ByteImage(kSize, kSize, 1, static_cast<std::uint8_t>(3 + v))});
+  write_meshes(folder_, 0, meshes);
+  const ShardReader reader(folder_);
+  ASSERT_TRUE(reader.has_meshes());
+  EXPECT_EQ(reader.view_place(1), (std::pair{0, 0}));
+  EXPECT_EQ(reader.view_place(2), (std::pair{0, 1}));
+  EXPECT_EQ(reader.copy_mesh(1).normal_cam, meshes[0].normal_cam);
+  EXPECT_EQ(reader.copy_mesh(2).normal_cam, meshes[1].normal_cam);
+  EXPECT_EQ(reader.copy_mesh(2).region, meshes[1].region);
+  EXPECT_EQ(reader.person(2), views[1].view.faces[0].person);
+  meshes.pop_back();
+  write_meshes(folder_, 0, meshes);
+  EXPECT_THROW(ShardReader{folder_}, Error);
+}
+
 TEST_F(Shards, AFolderOfAnotherRecipeIsRefusedByNameOfTheDifference) {
   const ShardWriter writer(folder_, spec());
   ShardSpec other = spec();
