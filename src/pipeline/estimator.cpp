@@ -78,7 +78,7 @@ FaceEstimate Estimator::Impl::analyse(const io::Photo& photo, const face::Camera
   watch.lap("highlights and normals");
 
   const ByteImage skin = skin_regions(out.geometry.region);
-  if (reading.surface && options.shading == ShadingSource::kNet) {
+  if (reading.surface && !reading.surface->shading.empty() && options.shading == ShadingSource::kNet) {
     AlbedoShading split = split_diffuse(*reading.surface, out.layers.diffuse, skin);
     out.albedo = std::move(split.albedo);
     out.shading = std::move(split.shading);

@@ -160,7 +160,11 @@ FaceReader::~FaceReader() = default;
 Reading FaceReader::read(const Image& picture, const ByteImage& flags, const ByteImage& skin,
                          const face::FaceGeometry& geometry, bool enough) const {
   if (network_ && enough) return network_->read(picture, flags, skin, geometry);
-  return {highlight::separate(picture, skin, classical_), {}};
+  Reading reading{highlight::separate(picture, skin, classical_), {}};
+  if (!network_) return reading;
+  reading.surface = network_->read(picture, flags, skin, geometry).surface;
+  if (reading.surface) reading.surface->shading = {};
+  return reading;
 }
 
 }  // namespace faceprobe::pipeline

@@ -19,7 +19,7 @@ double shown_share(const face::Crop& crop, int photo_width, int photo_height);
 struct Surface {
   Image normal_cam;
   Image normal_error_rad;
-  Image shading;
+  Image shading;  // empty where it is not to be trusted
   ByteImage region;
 };
 
@@ -42,7 +42,8 @@ class FaceReader {
   FaceReader& operator=(FaceReader&&) = delete;
 
   // picture: H x W x 3 linear crop of one face; flags: io::Photo::clipped in the crop; skin: H x W x 1, non-zero where to separate;
-  // geometry: the mesh in the same crop, which may be smaller; enough: of the face is shown, without which the classical separator steps in.
+  // geometry: the mesh in the same crop, which may be smaller; enough: of the face is shown, without which the classical separator steps in and
+  // the network tells normals and regions alone.
   Reading read(const Image& picture, const ByteImage& flags, const ByteImage& skin, const face::FaceGeometry& geometry,
                bool enough) const;
 
