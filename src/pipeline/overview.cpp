@@ -94,7 +94,7 @@ int draw_layers(Page& page, const FaceEstimate& face, int x, int y) {
   const std::array<std::pair<std::string, ByteImage>, 6> tiles = {{
       {amplified, exposed(face.layers.highlight, highlight_gain)},
       {"diffuse", exposed(face.layers.diffuse, 1.0F)},
-      {"albedo (smooth)", exposed(face.albedo, 1.0F)},
+      {"albedo", exposed(face.albedo, 1.0F)},
       {"shading", exposed(face.shading, display_gain(face.shading))},
       {"normals", resized_labels(normals_picture(face.geometry), width, height)},
       {"regions", resized_labels(regions_picture(face.geometry), width, height)},

@@ -33,8 +33,7 @@
 
 namespace faceprobe::pipeline {
 
-// Where the normals, or albedo and shading come from. The network's answers need the network: with a classical separator, and of faces
-// that the photo cuts off, they are the mesh's and the regions'.
+// Where the normals, or albedo and shading come from. With a classical separator no network is asked: they are the mesh's and the regions'.
 enum class NormalSource {
   kMesh,  // the dense face mesh, posed
   kNet,   // the network, per pixel, with an error of its own
@@ -51,8 +50,8 @@ struct EstimateOptions {
   std::filesystem::path weights;  // of the network, "face" or "unet"; empty = those that come with the program (models/README.md)
   NormalSource normals = NormalSource::kNet;
   ShadingSource shading = ShadingSource::kNet;
-  // Least share of a face's crop that the photo must show for the network; below, the classical separator, the mesh and the regions step
-  // in. The network learnt from whole heads; of the middle of a face alone it makes shading a highlight.
+  // Least share of a face's crop that the photo must show for the network's layers; below, the classical separator and the regions step in,
+  // and its normals alone are used. The network learnt from whole heads; of the middle of a face alone it makes shading a highlight.
   double least_shown = 2.0 / 3.0;
   lighting::SolveOptions solve;
   lighting::MainLightOptions main_lights;
