@@ -23,7 +23,7 @@ done
 start=$root/models/face.safetensors
 work=$build/people
 "$build/bin/faceprobe" finetune --people "$data/real/finetune" --start "$start" --data "$training" -o "$work" \
-  --steps 300 --weight 30
+  --steps 300 --weight 30 --energy-weight 0.1 --synthetic-batch 16
 "$build/bin/faceprobe" eval highlight --data "$faces" --weights pretrained="$start" --weights finetuned="$work/weights.safetensors" \
   --samples 100 >"$work/eval.md"
 printf '\nOn synthetic faces:\n\n'

@@ -1,5 +1,6 @@
 #include "faceprobe/train/finetune.h"
 
+#include "faceprobe/core/angles.h"
 #include "faceprobe/core/error.h"
 #include "faceprobe/core/parallel.h"
 #include "faceprobe/core/permutation.h"
@@ -187,6 +188,7 @@ class Finetuning {
 
   // False when the photos that were drawn have too little in common; the synthetic faces are learnt from all the same.
   bool one_step(std::int64_t step, FinetuneRow& sum) {
+    set_rate(step);
     optimizer_.zero_grad();
     const bool used = add_people(step, sum);
     if (source_) {
@@ -202,6 +204,15 @@ class Finetuning {
     }
     optimizer_.step();
     return used;
+  }
+
+  // A half cosine down to a hundredth: what a constant rate leaves in the weights is noise, and the synthetic faces show it.
+  void set_rate(std::int64_t step) {
+    constexpr double kFinalShare = 0.01;
+    const double done = static_cast<double>(step) / static_cast<double>(run_.config.steps);
+    const double share = kFinalShare + (1 - kFinalShare) * 0.5 * (1 + std::cos(kPi * done));
+    for (torch::optim::OptimizerParamGroup& group : optimizer_.param_groups())
+      static_cast<torch::optim::AdamWOptions&>(group.options()).lr(share * run_.config.learning_rate);
   }
 
   // What the network took off these photos before it was finetuned.

@@ -25,10 +25,10 @@ namespace faceprobe::train {
 struct FinetuneConfig {
   std::string mode = "default";  // "default": distance to rank one, blurred chroma; "paper": the second singular value
   std::int64_t steps = 400;
-  int photos = 4;           // of one person in a step (paper: 4)
-  int synthetic_batch = 8;  // synthetic faces in a step; 0 = none
-  double learning_rate = 1e-4;
-  double weight = 3.0;  // of the loss on people against that on synthetic faces
+  int photos = 4;               // of one person in a step (paper: 4)
+  int synthetic_batch = 8;      // synthetic faces in a step; 0 = none
+  double learning_rate = 1e-4;  // at the start; a half cosine down to a hundredth of it
+  double weight = 3.0;          // of the loss on people against that on synthetic faces
   // Within the loss on people, of the hold on each photo's mean highlight; see PersonLossOptions. None in paper mode.
   double energy_weight = 0.5;
   double largest_gradient = 1.0;
