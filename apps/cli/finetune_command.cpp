@@ -63,7 +63,7 @@ int run(Options options) {
 void add_finetune(CLI::App& program, Action& action) {
   auto options = std::make_shared<Options>();
   CLI::App* command =
-      program.add_subcommand("finetune", "improves the highlight network on photos of people, several of each");
+      program.add_subcommand("finetune", "improves the network's highlights on photos of people, several of each");
   command
       ->add_option("--people", options->people,
                    "folder with one folder of photos a person, at any depth, or one that `faceprobe synth` wrote")

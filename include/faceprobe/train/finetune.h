@@ -1,5 +1,5 @@
 #pragma once
-// Finetunes the highlight network on photos of people, without labels: paper Section 3.2. One person's skin has the same chromaticity in
+// Finetunes the highlights of a network ("unet" or "face") on photos of people, without labels: paper Section 3.2. One person's skin has the same chromaticity in
 // every photo, so what the diffuse layers of several photos do not share is highlight that was missed, or skin that was taken. Every step
 // also trains on synthetic faces, so that the network keeps what it knows.
 //

@@ -1,6 +1,6 @@
 #pragma once
-// Trains the highlight network on a folder of synthetic faces (synth/shard.h): paper Section 3.1, with the loss, network and augmentation
-// of the config. The run's folder holds everything: the config, a checkpoint from which the run goes on bit for bit, one CSV, pictures,
+// Trains the highlight network, or the face network (config's architecture "face", data with meshes), on a folder of synthetic faces
+// (synth/shard.h): paper Section 3.1, with the loss, network and augmentation of the config. The run's folder holds everything: the config, a checkpoint from which the run goes on bit for bit, one CSV, pictures,
 // and the weights as they are at the last save.
 //
 //   train::TrainRun run;
@@ -8,7 +8,7 @@
 //   run.data = "faces/train";  run.validation_data = "faces/dev";  run.folder = "runs/highlight";
 //   const train::TrainReport report = train::train_highlight(run, {});
 //
-// Not for the other networks, and not for real photos: see finetune.h.
+// Not for real photos: see finetune.h.
 
 #include "faceprobe/core/image.h"
 #include "faceprobe/net/device.h"
@@ -26,7 +26,7 @@ struct TrainRun {
   std::filesystem::path data;
   std::filesystem::path validation_data;  // empty: no validation
   std::filesystem::path folder;           // made; a run that is there goes on if its config and data are the same
-  std::filesystem::path start;            // weights to begin with; empty: drawn from the seed
+  std::filesystem::path start;  // weights to begin with, of a network nowhere wider; empty: drawn from the seed
   net::Device device;
   int threads = 0;            // of the processor; 0 = all
   bool repeat_batch = false;  // train on the first batch only: the speed that data must not hold up. Saves nothing
@@ -74,7 +74,7 @@ struct TrainHooks {
   std::function<void(const std::filesystem::path&, const ByteImage&)> write_picture;
 };
 
-// Throws Error: data that cannot be read (kInput), a folder of another run or that cannot be written (kOutput), a device that is not there
+// Throws Error: data that cannot be read or lack the meshes the network wants (kInput), a folder of another run or that cannot be written (kOutput), a device that is not there
 // (kDevice), a config that does not validate (kUsage), a loss that is no number any more (kUnexpected; the checkpoint before it is kept).
 TrainReport train_highlight(const TrainRun& run, const TrainHooks& hooks);
 
