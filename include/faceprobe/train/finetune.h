@@ -1,7 +1,7 @@
 #pragma once
-// Finetunes the highlights of a network ("unet" or "face") on photos of people, without labels: paper Section 3.2. One person's skin has the same chromaticity in
-// every photo, so what the diffuse layers of several photos do not share is highlight that was missed, or skin that was taken. Every step
-// also trains on synthetic faces, so that the network keeps what it knows.
+// Finetunes the highlights of a network ("unet" or "face") on photos of people, without labels: paper Section 3.2. One person's skin has
+// the same chromaticity in every photo, so what the diffuse layers of several photos do not share is highlight that was missed, or skin
+// that was taken. Every step also trains on synthetic faces, so that the network keeps what it knows.
 //
 //   train::FinetuneRun run;
 //   run.people = train::load_people("real/finetune", {});       // one folder a person
@@ -76,7 +76,8 @@ struct FinetuneHooks {
   std::function<bool()> stop;
 };
 
-// Throws Error: kInput (weights of another architecture than unet and face, too few people), kUsage, kOutput, kUnexpected (the loss is no number).
+// Throws Error: kInput (weights of another architecture than unet and face, too few people), kUsage, kOutput, kUnexpected (the loss is
+// no number).
 FinetuneReport finetune_highlight(const FinetuneRun& run, const FinetuneHooks& hooks);
 
 }  // namespace faceprobe::train

@@ -1,7 +1,7 @@
 #pragma once
 // Trains the highlight network, or the face network (config's architecture "face", data with meshes), on a folder of synthetic faces
-// (synth/shard.h): paper Section 3.1, with the loss, network and augmentation of the config. The run's folder holds everything: the config, a checkpoint from which the run goes on bit for bit, one CSV, pictures,
-// and the weights as they are at the last save.
+// (synth/shard.h): paper Section 3.1, with the loss, network and augmentation of the config. The run's folder holds everything: the
+// config, a checkpoint from which the run goes on bit for bit, one CSV, pictures, and the weights as they are at the last save.
 //
 //   train::TrainRun run;
 //   run.config = train::train_config_from_json(text);
@@ -74,8 +74,9 @@ struct TrainHooks {
   std::function<void(const std::filesystem::path&, const ByteImage&)> write_picture;
 };
 
-// Throws Error: data that cannot be read or lack the meshes the network wants (kInput), a folder of another run or that cannot be written (kOutput), a device that is not there
-// (kDevice), a config that does not validate (kUsage), a loss that is no number any more (kUnexpected; the checkpoint before it is kept).
+// Throws Error: data that cannot be read or lack the meshes the network wants (kInput), a folder of another run or that cannot be
+// written (kOutput), a device that is not there (kDevice), a config that does not validate (kUsage), a loss that is no number any more
+// (kUnexpected; the checkpoint before it is kept).
 TrainReport train_highlight(const TrainRun& run, const TrainHooks& hooks);
 
 // "step,loss,..." with one line a row.

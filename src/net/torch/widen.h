@@ -14,7 +14,8 @@
 namespace faceprobe::net {
 
 // The file's network must be a U-Net of as many levels and convolutions, nowhere wider, with no more inputs and outputs. Further inputs
-// count for nothing at first, further outputs stay as they were. `noise`, of the weights' standard deviation and from torch's generator, lets the copies part. Throws Error(kModel).
+// count for nothing at first, further outputs stay as they were. `noise`, of the weights' standard deviation and from torch's generator,
+// lets the copies part. Throws Error(kModel).
 void load_widened(UNet& net, const std::filesystem::path& weights, double noise = 0.1);
 
 }  // namespace faceprobe::net
