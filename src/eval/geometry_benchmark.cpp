@@ -178,21 +178,14 @@ GeometryScores measure_geometry(const synth::ShardReader& faces, const std::vect
   scores.table.order_labels("tone", tone_names());
   scores.table.order_labels("turn", {"under 15", "15 to 30", "30 and more"});
   std::vector<Gathered> gathered(methods.size());
-  const std::vector<int> numbers = evenly_chosen(faces, options.samples);
-  int done = 0;
-  for (const int number : numbers) {
-    const SyntheticPhoto photo(faces, number);
-    ++done;
-    if (photo.enough_skin()) {
-      std::vector<GeometryEstimate> found;
-      found.reserve(methods.size());
-      for (const GeometryMethod& method : methods) found.push_back(method.find(photo.input()));
-      const ByteImage judged = judged_pixels(photo, found);
-      for (std::size_t m = 0; m < methods.size(); ++m)
-        scores.table.add(row_of(methods[m], number, photo, found[m], judged, gathered[m]));
-    }
-    if (options.progress) options.progress(done, static_cast<int>(numbers.size()));
-  }
+  visit_photos(faces, options.samples, options.progress, [&](int number, const SyntheticPhoto& photo) {
+    std::vector<GeometryEstimate> found;
+    found.reserve(methods.size());
+    for (const GeometryMethod& method : methods) found.push_back(method.find(photo.input()));
+    const ByteImage judged = judged_pixels(photo, found);
+    for (std::size_t m = 0; m < methods.size(); ++m)
+      scores.table.add(row_of(methods[m], number, photo, found[m], judged, gathered[m]));
+  });
   for (std::size_t m = 0; m < methods.size(); ++m) {
     const std::string& name = methods[m].name;
     if (!gathered[m].stated.empty()) scores.calibration[name] = calibration_of(std::move(gathered[m].stated));

@@ -54,28 +54,21 @@ ScoreTable measure_highlights(const synth::ShardReader& faces, const std::vector
   table.order_labels("tone", tone_names());
   table.order_labels("clipped", {"none", "under 5 %", "5 % and more"});
   table.order_labels("size", {"under 15 %", "15 to 25 %", "25 % and more"});
-  const std::vector<int> numbers = evenly_chosen(faces, options.samples);
-  int done = 0;
-  for (const int number : numbers) {
-    const SyntheticPhoto photo(faces, number);
-    ++done;
-    if (photo.enough_skin()) {
-      const std::map<std::string, std::string> groups = groups_of(photo);
-      for (const HighlightMethod& method : methods) {
-        const Image masked = method.highlight(photo.input());
-        const Image whole = method.highlight(photo.whole_input());
-        const Image& truth = photo.layers.highlight;
-        table.add({method.name,
-                   std::to_string(number),
-                   groups,
-                   {{"rmse_skin", rmse(masked, truth, photo.skin, options.threads)},
-                    {"ssim_skin", ssim(masked, truth, photo.skin, options.threads)},
-                    {"rmse_whole", rmse(whole, truth, {}, options.threads)},
-                    {"ssim_whole", ssim(whole, truth, {}, options.threads)}}});
-      }
+  visit_photos(faces, options.samples, options.progress, [&](int number, const SyntheticPhoto& photo) {
+    const std::map<std::string, std::string> groups = groups_of(photo);
+    for (const HighlightMethod& method : methods) {
+      const Image masked = method.highlight(photo.input());
+      const Image whole = method.highlight(photo.whole_input());
+      const Image& truth = photo.layers.highlight;
+      table.add({method.name,
+                 std::to_string(number),
+                 groups,
+                 {{"rmse_skin", rmse(masked, truth, photo.skin, options.threads)},
+                  {"ssim_skin", ssim(masked, truth, photo.skin, options.threads)},
+                  {"rmse_whole", rmse(whole, truth, {}, options.threads)},
+                  {"ssim_whole", ssim(whole, truth, {}, options.threads)}}});
     }
-    if (options.progress) options.progress(done, static_cast<int>(numbers.size()));
-  }
+  });
   return table;
 }
 

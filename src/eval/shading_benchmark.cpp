@@ -70,25 +70,18 @@ ScoreTable measure_shading(const synth::ShardReader& faces, const std::vector<Sh
   if (const std::string problem = options.validate(); !problem.empty()) throw Error(ExitCode::kUsage, problem);
   ScoreTable table;
   table.order_labels("tone", tone_names());
-  const std::vector<int> numbers = evenly_chosen(faces, options.samples);
-  int done = 0;
-  for (const int number : numbers) {
-    const SyntheticPhoto photo(faces, number);
-    ++done;
-    if (photo.enough_skin()) {
-      const ByteImage judged = judged_pixels(photo);
-      for (const ShadingMethod& method : methods) {
-        const ShadingEstimate found = method.split(photo.input());
-        table.add({method.name,
-                   std::to_string(number),
-                   {{"tone", photo.tone()}},
-                   {{"albedo", scale_invariant_error(found.albedo, photo.sample.albedo, judged)},
-                    {"shading", scale_invariant_error(found.shading, photo.sample.shading, judged)},
-                    {"light_colour", colour_error_deg(found.shading, photo.sample.shading, judged)}}});
-      }
+  visit_photos(faces, options.samples, options.progress, [&](int number, const SyntheticPhoto& photo) {
+    const ByteImage judged = judged_pixels(photo);
+    for (const ShadingMethod& method : methods) {
+      const ShadingEstimate found = method.split(photo.input());
+      table.add({method.name,
+                 std::to_string(number),
+                 {{"tone", photo.tone()}},
+                 {{"albedo", scale_invariant_error(found.albedo, photo.sample.albedo, judged)},
+                  {"shading", scale_invariant_error(found.shading, photo.sample.shading, judged)},
+                  {"light_colour", colour_error_deg(found.shading, photo.sample.shading, judged)}}});
     }
-    if (options.progress) options.progress(done, static_cast<int>(numbers.size()));
-  }
+  });
   return table;
 }
 

@@ -68,6 +68,17 @@ std::vector<int> evenly_chosen(const synth::ShardReader& faces, int count) {
   return numbers;
 }
 
+void visit_photos(const synth::ShardReader& faces, int count, const std::function<void(int, int)>& progress,
+                  const std::function<void(int, const SyntheticPhoto&)>& visit) {
+  const std::vector<int> numbers = evenly_chosen(faces, count);
+  int done = 0;
+  for (const int number : numbers) {
+    const SyntheticPhoto photo(faces, number);
+    if (photo.enough_skin()) visit(number, photo);
+    if (progress) progress(++done, static_cast<int>(numbers.size()));
+  }
+}
+
 std::vector<std::string> tone_names() {
   std::vector<std::string> tones;
   tones.reserve(kSkinTones.size());

@@ -5,7 +5,7 @@
 #include "faceprobe/synth/photo_layers.h"
 #include "faceprobe/synth/shard.h"
 
-#include <map>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -36,6 +36,10 @@ struct SyntheticPhoto {
 
 // Evenly over the data set.
 std::vector<int> evenly_chosen(const synth::ShardReader& faces, int count);
+
+// Calls visit(number, photo) for so many photos spread evenly over the data set, but for those that show too little skin.
+void visit_photos(const synth::ShardReader& faces, int count, const std::function<void(int done, int total)>& progress,
+                  const std::function<void(int number, const SyntheticPhoto& photo)>& visit);
 
 // Names of the skin tones from light to dark, as tables order them.
 std::vector<std::string> tone_names();

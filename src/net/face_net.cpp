@@ -26,15 +26,6 @@ void make_grey(Image& image) {
   }
 }
 
-Image top_left(const Image& image, int width, int height) {
-  Image out(width, height, image.channels());
-  for (int y = 0; y < height; ++y) {
-    const auto from = image.row(y).first(out.row(y).size());
-    std::copy(from.begin(), from.end(), out.row(y).begin());
-  }
-  return out;
-}
-
 }  // namespace
 
 struct FaceNet::Impl {

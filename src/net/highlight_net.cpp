@@ -57,12 +57,8 @@ Image HighlightNet::highlight(const Image& linear, const ByteImage& clip, const 
   if (linear.empty()) return Image(linear.width(), linear.height(), 3);
   const ThreadCount threads(impl_->threads);
   const PaddedPicture picture = pad_picture(linear, clip, mask, impl_->net.options().multiple());
-  const Image whole = highlight_of_raw(impl_->net(network_input(picture)), picture.linear);
-  Image highlight(linear.width(), linear.height(), 3);
-  for (int y = 0; y < highlight.height(); ++y) {
-    const auto from = whole.row(y).first(highlight.row(y).size());
-    std::copy(from.begin(), from.end(), highlight.row(y).begin());
-  }
+  Image highlight =
+      top_left(highlight_of_raw(impl_->net(network_input(picture)), picture.linear), linear.width(), linear.height());
   keep_within(highlight, picture.linear, mask, is_grey(picture.linear));
   return highlight;
 }

@@ -32,6 +32,15 @@ PaddedPicture pad_picture(const Image& linear, const ByteImage& clip, const Byte
   return result;
 }
 
+Image top_left(const Image& image, int width, int height) {
+  Image out(width, height, image.channels());
+  for (int y = 0; y < height; ++y) {
+    const auto from = image.row(y).first(out.row(y).size());
+    std::copy(from.begin(), from.end(), out.row(y).begin());
+  }
+  return out;
+}
+
 void keep_within(Image& highlight, const Image& linear, const ByteImage& mask, bool grey) {
   for (int y = 0; y < highlight.height(); ++y) {
     for (int x = 0; x < highlight.width(); ++x) {

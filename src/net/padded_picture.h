@@ -15,6 +15,9 @@ struct PaddedPicture {
 // non-zero on the face; empty = everywhere.
 PaddedPicture pad_picture(const Image& linear, const ByteImage& clip, const ByteImage& mask, int multiple);
 
+// The top left part of a padded picture, any number of channels.
+Image top_left(const Image& image, int width, int height);
+
 // What a network says of a picture, kept within it whatever it is: 0 <= highlight <= picture, nothing outside the mask (empty =
 // everywhere), not-a-numbers 0, and grey where `grey`: the mean of the three channels. `linear` is at least as large.
 void keep_within(Image& highlight, const Image& linear, const ByteImage& mask, bool grey);

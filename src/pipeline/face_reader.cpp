@@ -120,31 +120,42 @@ struct FaceReader::Network {
     return layers;
   }
 
-  Reading read(const Image& picture, const ByteImage& flags, const ByteImage& skin,
-               const face::FaceGeometry& geometry) const {
-    const face::Crop copy = small_copy(picture);
-    const Image small = face::crop_picture(picture, copy);
-    ByteImage where(skin.width(), skin.height(), 1);
-    std::transform(skin.values().begin(), skin.values().end(), where.values().begin(),
+  // What it sees in a small copy of the picture.
+  struct Look {
+    face::Crop copy;
+    Image small;
+    ByteImage where;  // of the picture, 1 on skin
+    net::FaceLayers found;
+  };
+  Look look(const Image& picture, const ByteImage& flags, const ByteImage& skin,
+            const face::FaceGeometry& geometry) const {
+    Look look{small_copy(picture), {}, ByteImage(skin.width(), skin.height(), 1), {}};
+    look.small = face::crop_picture(picture, look.copy);
+    std::transform(skin.values().begin(), skin.values().end(), look.where.values().begin(),
                    [](std::uint8_t value) { return value != 0 ? std::uint8_t{1} : std::uint8_t{0}; });
-    const ByteImage small_flags = face::crop_flags(flags, copy);
-    net::FaceLayers found = see(small, small_flags, face::crop_flags(where, copy), geometry);
-    fill_clipped(small_flags, small, found.highlight);  // here, where no pixel stands apart from its neighbours
-    Reading reading;
-    reading.layers.highlight =
-        highlight::upsample_highlight(found.highlight, small, picture, where, {.threads = threads});
-    reading.layers.diffuse = picture;
-    for (std::size_t i = 0; i < picture.values().size(); ++i)
-      reading.layers.diffuse.data()[i] -= reading.layers.highlight.data()[i];
-    if (found.normal_cam.empty()) return reading;
-    const int width = picture.width();
-    const int height = picture.height();
-    Surface surface{enlarged(found.normal_cam, copy, width, height),
-                    enlarged(found.normal_error_rad, copy, width, height), enlarged(found.shading, copy, width, height),
-                    enlarged(found.region, copy, width, height)};
+    const ByteImage small_flags = face::crop_flags(flags, look.copy);
+    look.found = see(look.small, small_flags, face::crop_flags(look.where, look.copy), geometry);
+    fill_clipped(small_flags, look.small, look.found.highlight);  // here, where no pixel stands apart from its neighbours
+    return look;
+  }
+
+  highlight::Layers layers(const Look& look, const Image& picture) const {
+    highlight::Layers layers;
+    layers.highlight =
+        highlight::upsample_highlight(look.found.highlight, look.small, picture, look.where, {.threads = threads});
+    layers.diffuse = picture;
+    for (std::size_t i = 0; i < picture.values().size(); ++i) layers.diffuse.data()[i] -= layers.highlight.data()[i];
+    return layers;
+  }
+
+  static std::optional<Surface> surface(const Look& look, int width, int height) {
+    const net::FaceLayers& found = look.found;
+    if (found.normal_cam.empty()) return std::nullopt;
+    Surface surface{enlarged(found.normal_cam, look.copy, width, height),
+                    enlarged(found.normal_error_rad, look.copy, width, height),
+                    enlarged(found.shading, look.copy, width, height), enlarged(found.region, look.copy, width, height)};
     make_unit(surface.normal_cam);
-    reading.surface = std::move(surface);
-    return reading;
+    return surface;
   }
 };
 
@@ -159,12 +170,22 @@ FaceReader::~FaceReader() = default;
 
 Reading FaceReader::read(const Image& picture, const ByteImage& flags, const ByteImage& skin,
                          const face::FaceGeometry& geometry, bool enough) const {
-  if (network_ && enough) return network_->read(picture, flags, skin, geometry);
-  Reading reading{highlight::separate(picture, skin, classical_), {}};
-  if (!network_) return reading;
-  reading.surface = network_->read(picture, flags, skin, geometry).surface;
-  if (reading.surface) reading.surface->shading = {};
+  if (!network_) return {highlight::separate(picture, skin, classical_), {}};
+  const Network::Look look = network_->look(picture, flags, skin, geometry);
+  Reading reading{{}, Network::surface(look, picture.width(), picture.height())};
+  if (enough) {
+    reading.layers = network_->layers(look, picture);
+  } else {
+    reading.layers = highlight::separate(picture, skin, classical_);
+    if (reading.surface) reading.surface->shading = {};
+  }
   return reading;
+}
+
+highlight::Layers FaceReader::separate(const Image& picture, const ByteImage& flags, const ByteImage& skin,
+                                       const face::FaceGeometry& geometry, bool enough) const {
+  if (!network_ || !enough) return highlight::separate(picture, skin, classical_);
+  return network_->layers(network_->look(picture, flags, skin, geometry), picture);
 }
 
 }  // namespace faceprobe::pipeline

@@ -46,6 +46,9 @@ class FaceReader {
   // the network tells normals and regions alone.
   Reading read(const Image& picture, const ByteImage& flags, const ByteImage& skin, const face::FaceGeometry& geometry,
                bool enough) const;
+  // The layers alone, for large pictures: nothing else is enlarged.
+  highlight::Layers separate(const Image& picture, const ByteImage& flags, const ByteImage& skin,
+                             const face::FaceGeometry& geometry, bool enough) const;
 
  private:
   struct Network;

@@ -65,7 +65,7 @@ highlight::Layers Estimator::separate(const io::Photo& photo) const {
     const face::FaceGeometry geometry = face::rasterize(face, camera, impl_->mesh, small_crop(crop));
     const bool enough = shown_share(wide, photo.linear.width(), photo.linear.height()) >= impl_->options.least_shown;
     const highlight::Layers layers =
-        impl_->reader.read(picture, cut(photo.clipped, left, top, crop), skin, geometry, enough).layers;
+        impl_->reader.separate(picture, cut(photo.clipped, left, top, crop), skin, geometry, enough);
     for (int y = 0; y < crop.height; ++y) {
       for (int x = 0; x < crop.width; ++x) {
         if (skin(x, y) == 0) continue;

@@ -1,6 +1,5 @@
 #include "faceprobe/train/finetune.h"
 
-#include "faceprobe/core/angles.h"
 #include "faceprobe/core/error.h"
 #include "faceprobe/core/parallel.h"
 #include "faceprobe/core/permutation.h"
@@ -14,6 +13,7 @@
 #include "train/batch.h"
 #include "train/model.h"
 #include "train/person_loss.h"
+#include "train/schedule.h"
 
 #include <algorithm>
 #include <cmath>
@@ -210,7 +210,7 @@ class Finetuning {
   void set_rate(std::int64_t step) {
     constexpr double kFinalShare = 0.01;
     const double done = static_cast<double>(step) / static_cast<double>(run_.config.steps);
-    const double share = kFinalShare + (1 - kFinalShare) * 0.5 * (1 + std::cos(kPi * done));
+    const double share = half_cosine(done, kFinalShare);
     for (torch::optim::OptimizerParamGroup& group : optimizer_.param_groups())
       static_cast<torch::optim::AdamWOptions&>(group.options()).lr(share * run_.config.learning_rate);
   }
