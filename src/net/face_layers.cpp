@@ -38,6 +38,29 @@ Image mean_of(const Image& a, const Image& b) {
   return mean;
 }
 
+void make_unit(Image& normals) {
+  for (std::size_t i = 0; i < normals.values().size(); i += 3) {
+    Eigen::Map<Eigen::Vector3f> normal(normals.data() + i);
+    normal /= std::max(normal.norm(), static_cast<float>(Out::kShortest));
+  }
+}
+
+double mean_where(const Image& values, const ByteImage& where) {
+  double sum = 0;
+  double count = 0;
+  for (std::size_t i = 0; i < values.values().size(); ++i) {
+    if (where.data()[i] == 0) continue;
+    sum += static_cast<double>(values.data()[i]);
+    ++count;
+  }
+  return sum / std::max(1.0, count);
+}
+
+template <class T>
+void put_pixel(const BasicImage<T>& from, int x, int y, BasicImage<T>& to) {
+  std::copy_n(from.pixel(x, y), from.channels(), to.pixel(x, y));
+}
+
 }  // namespace
 
 FaceInputPicture face_input(const PaddedPicture& picture, const Image& mesh) {
@@ -94,11 +117,40 @@ FaceLayers mean_of(const FaceLayers& a, const FaceLayers& b) {
                   .depth_m = mean_of(a.depth_m, b.depth_m),
                   .shading = mean_of(a.shading, b.shading),
                   .region = a.region};
-  for (std::size_t i = 0; i < mean.normal_cam.values().size(); i += 3) {
-    Eigen::Map<Eigen::Vector3f> normal(mean.normal_cam.data() + i);
-    normal /= std::max(normal.norm(), static_cast<float>(Out::kShortest));
-  }
+  make_unit(mean.normal_cam);
   return mean;
+}
+
+FaceLayers seen_back(const FaceLayers& part, const Window& window, int width, int height) {
+  const Window back = window.back_to(width, height);
+  FaceLayers seen{.highlight = resampled(part.highlight, back, Outside::kEdge),
+                  .normal_cam = resampled(part.normal_cam, back, Outside::kEdge),
+                  .normal_error_rad = resampled(part.normal_error_rad, back, Outside::kEdge),
+                  .depth_m = resampled(part.depth_m, back, Outside::kEdge),
+                  .shading = resampled(part.shading, back, Outside::kEdge),
+                  .region = resampled(part.region, back)};
+  make_unit(seen.normal_cam);
+  return seen;
+}
+
+void put_near(const FaceLayers& near, const Window& window, const ByteImage& where, FaceLayers& whole) {
+  const int width = whole.region.width();
+  const int height = whole.region.height();
+  const FaceLayers seen = seen_back(near, window, width, height);
+  const auto shift = static_cast<float>(mean_where(whole.depth_m, where) - mean_where(seen.depth_m, where));
+  for (int y = 0; y < height; ++y) {
+    const double down = (y + 0.5 - window.top_px) * window.scale;
+    for (int x = 0; x < width; ++x) {
+      const double across = (x + 0.5 - window.left_px) * window.scale;
+      if (!(across > 0 && across < window.width && down > 0 && down < window.height)) continue;
+      put_pixel(seen.highlight, x, y, whole.highlight);
+      put_pixel(seen.normal_cam, x, y, whole.normal_cam);
+      put_pixel(seen.normal_error_rad, x, y, whole.normal_error_rad);
+      whole.depth_m(x, y) = seen.depth_m(x, y) + shift;
+      put_pixel(seen.shading, x, y, whole.shading);
+      put_pixel(seen.region, x, y, whole.region);
+    }
+  }
 }
 
 Image mirrored_normals(Image normals) {

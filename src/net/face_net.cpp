@@ -4,6 +4,7 @@
 #include "faceprobe/core/mirror.h"
 #include "faceprobe/io/safetensors.h"
 #include "io/safetensors_header.h"
+#include "net/close_view.h"
 #include "net/face_layers.h"
 #include "net/face_outputs.h"
 #include "net/head.h"
@@ -12,6 +13,8 @@
 #include "net/unet_runner.h"
 
 #include <algorithm>
+#include <charconv>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -26,12 +29,60 @@ void make_grey(Image& image) {
   }
 }
 
+struct Seen {
+  Image linear;
+  ByteImage clip, mask;
+  Image mesh;
+};
+
+// As training pictures are seen (train/augment_view.h).
+Seen seen_through(const Window& window, const Image& linear, const ByteImage& clip, const ByteImage& mask,
+                  const Image& mesh) {
+  constexpr std::uint8_t kAllClipped = 7;
+  const ByteImage none(linear.width(), linear.height(), 1);
+  return {resampled(linear, window), resampled(clip.empty() ? none : clip, window, kAllClipped),
+          mask.empty() ? ByteImage() : resampled(mask, window), mesh.empty() ? Image() : resampled(mesh, window)};
+}
+
+bool shows_all(const ByteImage& mask) {
+  return std::ranges::all_of(mask.values(), [](std::uint8_t m) { return m != 0; });
+}
+
+int picture_px_of(const ModelInfo& info) {
+  const auto found = info.metadata.find(kPictureKey);
+  if (found == info.metadata.end()) return 0;
+  int px = 0;
+  const char* end = found->second.data() + found->second.size();
+  const auto [rest, problem] = std::from_chars(found->second.data(), end, px);
+  if (problem == std::errc() && rest == end && px >= 8 && px <= 1024) return px;
+  throw Error(ExitCode::kModel, "The weights' " + std::string(kPictureKey) + " is " + io::quoted(found->second) +
+                                    "; allowed is 8 to 1024. Use weights made for faceprobe.");
+}
+
 }  // namespace
 
 struct FaceNet::Impl {
   int threads;
+  int picture_px;  // side of the views it was trained on; 0 = pictures as they come
   ModelInfo info;
   UNetRunner net;
+
+  // What it sees in a picture as it is. Not empty.
+  FaceLayers look(const Image& linear, const ByteImage& clip, const ByteImage& mask, const Image& mesh) const {
+    const PaddedPicture picture = pad_picture(linear, clip, mask, net.options().multiple());
+    const FaceInputPicture input = face_input(picture, mesh);
+    const Image raw = net(input.channels);
+    FaceLayers layers = surface_of_raw(raw, input.gain, linear.width(), linear.height());
+    layers.highlight = top_left(highlight_of_raw(raw, picture.linear), linear.width(), linear.height());
+    return layers;
+  }
+
+  // The same through a window.
+  FaceLayers look(const Window& window, const Image& linear, const ByteImage& clip, const ByteImage& mask,
+                  const Image& mesh) const {
+    const Seen seen = seen_through(window, linear, clip, mask, mesh);
+    return look(seen.linear, seen.clip, seen.mask, seen.mesh);
+  }
 };
 
 std::string FaceNetOptions::validate() const {
@@ -50,7 +101,8 @@ FaceNet::FaceNet(const std::filesystem::path& weights, const FaceNetOptions& opt
   WeightList list(file);
   UNetRunner runner(separator_options(info.options_json, FaceInputs::kCount, FaceOutputs::kCount), list);
   list.finish();
-  impl_ = std::make_unique<Impl>(Impl{options.threads, std::move(info), std::move(runner)});
+  const int picture_px = picture_px_of(info);
+  impl_ = std::make_unique<Impl>(Impl{options.threads, picture_px, std::move(info), std::move(runner)});
 }
 
 FaceNet::FaceNet(FaceNet&&) noexcept = default;
@@ -71,13 +123,18 @@ FaceLayers FaceNet::layers(const Image& linear, const ByteImage& clip, const Byt
     return none;
   }
   const ThreadCount threads(impl_->threads);
-  const PaddedPicture picture = pad_picture(linear, clip, mask, impl_->net.options().multiple());
-  const FaceInputPicture input = face_input(picture, mesh);
-  const Image raw = impl_->net(input.channels);
-  FaceLayers layers = surface_of_raw(raw, input.gain, width, height);
-  layers.highlight = top_left(highlight_of_raw(raw, picture.linear), width, height);
-  const bool grey = is_grey(picture.linear);
-  keep_within(layers.highlight, picture.linear, mask, grey);
+  const Image light = pad_picture(linear, {}, {}, 1).linear;  // no not-a-numbers, which resampling would spread
+  FaceLayers layers;
+  if (impl_->picture_px == 0) {
+    layers = impl_->look(light, clip, mask, mesh);
+  } else {
+    const Window all = whole_window(width, height, impl_->picture_px);
+    layers = seen_back(impl_->look(all, light, clip, mask, mesh), all, width, height);
+    const std::optional<Window> near = shows_all(mask) ? std::nullopt : close_window(mask, impl_->picture_px);
+    if (near) put_near(impl_->look(*near, light, clip, mask, mesh), *near, mask, layers);
+  }
+  const bool grey = is_grey(light);
+  keep_within(layers.highlight, light, mask, grey);
   if (grey) make_grey(layers.shading);
   return layers;
 }

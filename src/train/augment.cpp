@@ -4,10 +4,12 @@
 #include "faceprobe/core/mirror.h"
 #include "faceprobe/core/region.h"
 #include "faceprobe/synth/photo_layers.h"
+#include "net/close_view.h"
 #include "train/augment_view.h"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace faceprobe::train {
 namespace {
@@ -114,6 +116,30 @@ TrainingPicture picture_of(const synth::ShardReader& reader, int number, float m
   return picture;
 }
 
+bool masked_everywhere(const TrainingPicture& picture) {
+  return std::ranges::all_of(picture.mask.values(), [](std::uint8_t m) { return m != 0; });
+}
+
+// None where no face was found.
+std::optional<Window> near_window(const TrainingPicture& picture, int picture_px) {
+  if (masked_everywhere(picture)) return std::nullopt;
+  return net::close_window(picture.mask, picture_px);
+}
+
+Window whole_window(const TrainingPicture& picture, int picture_px) {
+  return net::whole_window(picture.linear.width(), picture.linear.height(), picture_px);
+}
+
+// `window` enlarged by `zoom` about its middle, which moves by shares of its sides.
+Window moved(Window window, double zoom, double right, double down) {
+  const double half_width = 0.5 * window.width / window.scale;
+  const double half_height = 0.5 * window.height / window.scale;
+  window.left_px += half_width * (1 + 2 * right - 1 / zoom);
+  window.top_px += half_height * (1 + 2 * down - 1 / zoom);
+  window.scale *= zoom;
+  return window;
+}
+
 }  // namespace
 
 void apply_gain(const std::array<float, 3>& gain, TrainingPicture& picture) {
@@ -135,8 +161,11 @@ void apply_gain(const std::array<float, 3>& gain, TrainingPicture& picture) {
   }
 }
 
-TrainingPicture plain_picture(const synth::ShardReader& reader, int sample, bool surface) {
-  return picture_of(reader, sample, 1.0F, surface);
+TrainingPicture plain_picture(const synth::ShardReader& reader, int sample, const TrainConfig& config) {
+  TrainingPicture picture = picture_of(reader, sample, 1.0F, config.architecture == "face");
+  if (config.picture_px == 0) return picture;
+  return seen_through(near_window(picture, config.picture_px).value_or(whole_window(picture, config.picture_px)),
+                      picture);
 }
 
 TrainingPicture draw_picture(const synth::ShardReader& reader, int sample, const TrainConfig& config, Random& random) {
@@ -155,13 +184,25 @@ TrainingPicture draw_picture(const synth::ShardReader& reader, int sample, const
   const double zoom = random.log_between(0.8, 1.6);
   const double centre_x = random.between(0.35, 0.65);
   const double centre_y = random.between(0.35, 0.65);
+  const bool near = random.chance(augment.close_share);
+  const double near_zoom = random.log_between(0.85, 1.15);
+  const double right = random.between(-0.06, 0.06);
+  const double down = random.between(-0.06, 0.06);
   const bool cut = random.chance(augment.cut_share);
   const std::array<double, 4> cuts = draw_cuts(random);
 
   TrainingPicture picture = picture_of(reader, sample, scale, config.architecture == "face");
+  if (config.picture_px > 0) {
+    const std::optional<Window> near_view = near ? near_window(picture, config.picture_px) : std::nullopt;
+    const Window all = whole_window(picture, config.picture_px);
+    const Window another = another_zoom ? moved(all, zoom, centre_x - 0.5, centre_y - 0.5) : all;
+    picture = seen_through(near_view ? moved(*near_view, near_zoom, right, down) : another, picture);
+  } else if (another_zoom) {
+    picture = seen_through(
+        zoom_window(picture, zoom, centre_x * picture.linear.width(), centre_y * picture.linear.height()), picture);
+  }
   const double width = picture.linear.width();
   const double height = picture.linear.height();
-  if (another_zoom) picture = zoomed(picture, zoom, centre_x * width, centre_y * height);
   if (config.architecture != "mscr") apply_gain(gain, picture);
   if (occluded) put_before(picture, random);
   if (grey) take_colour(picture);

@@ -24,7 +24,8 @@ struct TrainingPicture {
   bool has_surface() const { return !region.empty(); }
 };
 
-TrainingPicture plain_picture(const synth::ShardReader& reader, int sample, bool surface = false);
+// As it is; of a config with a picture_px, the near view where there is one.
+TrainingPicture plain_picture(const synth::ShardReader& reader, int sample, const TrainConfig& config);
 // With the changes of `config.augment`. What the light does to both layers is done to both: gains scale them alike, a channel that
 // passes white is clipped and marked, a thing in front has no highlight that is known, so it is matt.
 TrainingPicture draw_picture(const synth::ShardReader& reader, int sample, const TrainConfig& config, Random& random);

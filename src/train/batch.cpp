@@ -115,8 +115,8 @@ void require_meshes(const synth::ShardReader& reader, const std::filesystem::pat
                                     "` first.");
 }
 
-Batch plain_batch(const synth::ShardReader& reader, const std::vector<int>& samples, bool surface) {
-  return make_batch(samples.size(), [&](std::size_t i) { return plain_picture(reader, samples[i], surface); });
+Batch plain_batch(const synth::ShardReader& reader, const std::vector<int>& samples, const TrainConfig& config) {
+  return make_batch(samples.size(), [&](std::size_t i) { return plain_picture(reader, samples[i], config); });
 }
 
 std::vector<int> samples_of_step(std::uint64_t seed, std::int64_t step, int batch, int sample_count) {

@@ -41,8 +41,8 @@ struct Batch {
 // Throws Error(kInput) when the config's network is given meshes that the data do not have.
 void require_meshes(const synth::ShardReader& reader, const std::filesystem::path& folder, const TrainConfig& config);
 
-// Samples as they are, for validation.
-Batch plain_batch(const synth::ShardReader& reader, const std::vector<int>& samples, bool surface = false);
+// Samples without changes by chance, for validation.
+Batch plain_batch(const synth::ShardReader& reader, const std::vector<int>& samples, const TrainConfig& config);
 
 // The samples of a step: a new order of all of them in each round through the data.
 std::vector<int> samples_of_step(std::uint64_t seed, std::int64_t step, int batch, int sample_count);

@@ -23,6 +23,7 @@ constexpr Limits kAny{};  // of what is no number, or any number
 template <class Config, class Visit>
 void each_field(Config& config, const Visit& visit) {
   visit("architecture", config.architecture, kAny);
+  visit("picture_px", config.picture_px, Limits{0, 1024, "0 to 1024"});
   visit("batch", config.batch, Limits{1, 4096, "1 to 4096"});
   visit("steps", config.steps, kCount);
   visit("learning_rate", config.learning_rate, Limits{1e-9, 1, "1e-9 to 1"});
@@ -42,6 +43,7 @@ void each_field(Config& config, const Visit& visit) {
   visit("no_mask_share", config.augment.no_mask_share, kShare);
   visit("occluder_share", config.augment.occluder_share, kShare);
   visit("zoom_share", config.augment.zoom_share, kShare);
+  visit("close_share", config.augment.close_share, kShare);
   visit("cut_share", config.augment.cut_share, kShare);
   visit("loss_encoded", config.loss.encoded, kWeight);
   visit("loss_gradient", config.loss.gradient, kWeight);
@@ -52,6 +54,7 @@ void each_field(Config& config, const Visit& visit) {
   visit("loss_spread", config.loss.spread, kWeight);
   visit("loss_depth", config.loss.depth, kWeight);
   visit("loss_region", config.loss.region, kWeight);
+  visit("loss_rare", config.loss.rare, kWeight);
   visit("loss_shading", config.loss.shading, kWeight);
   visit("loss_colour", config.loss.colour, kWeight);
 }

@@ -3,6 +3,8 @@
 #include "faceprobe/core/region.h"
 #include "net/face_outputs.h"
 
+#include <cmath>
+
 namespace faceprobe::train {
 namespace {
 
@@ -42,6 +44,15 @@ torch::Tensor shading_loss(const torch::Tensor& log_level, const SurfaceBatch& t
   return weighted_mean(smooth_abs(error - level), truth.lit) + kOfLevel * smooth_abs(level).mean();
 }
 
+// Small regions are few pixels and would be given up.
+torch::Tensor region_weights(double rare, const torch::TensorOptions& options) {
+  torch::Tensor weights = torch::ones({kRegionCount}, options);
+  const auto set = [&](Region region, double weight) { weights[static_cast<std::int64_t>(region)] = weight; };
+  for (const Region region : {Region::kMouth, Region::kGlasses, Region::kObject}) set(region, rare);
+  for (const Region region : {Region::kEyes, Region::kLips, Region::kBrows}) set(region, std::sqrt(rare));
+  return weights;
+}
+
 }  // namespace
 
 torch::Tensor chord(const torch::Tensor& a, const torch::Tensor& b) {
@@ -52,8 +63,10 @@ torch::Tensor chord(const torch::Tensor& a, const torch::Tensor& b) {
 torch::Tensor surface_loss(const net::FaceSurface& found, const SurfaceBatch& truth, const LossConfig& config) {
   const torch::Tensor error = chord(found.normal, truth.normal);
   const torch::Tensor names = truth.region.squeeze(1).to(torch::kLong);
+  const torch::Tensor weights = region_weights(config.rare, found.region.options());
   return config.normal * weighted_mean(error, truth.weight) + config.spread * spread_loss(error, found, truth.weight) +
-         config.depth * depth_loss(found.depth, truth) + config.region * torch::cross_entropy_loss(found.region, names) +
+         config.depth * depth_loss(found.depth, truth) +
+         config.region * torch::cross_entropy_loss(found.region, names, weights) +
          config.shading * shading_loss(found.log_level, truth) +
          config.colour * weighted_mean(chord(found.colour, truth.shading), truth.lit);
 }

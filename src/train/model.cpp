@@ -100,7 +100,9 @@ bool finds_surface(const TrainConfig& config) { return config.architecture == ne
 
 Model make_model(const TrainConfig& config) {
   if (config.architecture == net::kMscrArchitecture) return mscr_model(config.network);
-  return unet_model(config.network, finds_surface(config));
+  Model model = unet_model(config.network, finds_surface(config));
+  if (config.picture_px > 0) model.metadata[net::kPictureKey] = std::to_string(config.picture_px);
+  return model;
 }
 
 }  // namespace faceprobe::train

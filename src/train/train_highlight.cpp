@@ -57,7 +57,7 @@ class Training {
     if (!run.validation_data.empty()) {
       validation_data_.emplace(run.validation_data);
       require_meshes(*validation_data_, run.validation_data, run.config);
-      validator_.emplace(*validation_data_, run.config.validation_samples, device_, finds_surface(run.config));
+      validator_.emplace(*validation_data_, run.config, device_);
     }
   }
 

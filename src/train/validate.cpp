@@ -59,13 +59,13 @@ void paste(const ByteImage& picture, int left, int top, ByteImage& sheet) {
 
 }  // namespace
 
-Validator::Validator(const synth::ShardReader& reader, int count, const torch::Device& device, bool surface) {
-  const int taken = std::min(count, reader.sample_count());
+Validator::Validator(const synth::ShardReader& reader, const TrainConfig& config, const torch::Device& device) {
+  const int taken = std::min(config.validation_samples, reader.sample_count());
   std::vector<int> samples;
   for (int i = 0; i < taken; ++i) {
     samples.push_back(static_cast<int>((static_cast<std::int64_t>(i) * reader.sample_count()) / taken));
     if (static_cast<int>(samples.size()) < kAtOnce && i + 1 < taken) continue;
-    batches_.push_back(to_device(plain_batch(reader, samples, surface), device));
+    batches_.push_back(to_device(plain_batch(reader, samples, config), device));
     samples.clear();
   }
 }

@@ -8,8 +8,8 @@ namespace faceprobe::train {
 
 class Validator {
  public:
-  // Takes up to `count` samples, spread evenly over the data set.
-  Validator(const synth::ShardReader& reader, int count, const torch::Device& device, bool surface = false);
+  // Takes up to config.validation_samples, spread evenly over the data set.
+  Validator(const synth::ShardReader& reader, const TrainConfig& config, const torch::Device& device);
   Validation measure(const Model& model) const;
   // Rows of photo, highlight that is known, highlight that was found, what is left; the layers twice as bright as they are. Of the face
   // network, on skin, then the normals that are known and found, the shadings that are known and found, half as bright, and the albedo.

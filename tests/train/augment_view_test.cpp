@@ -23,7 +23,7 @@ TrainingPicture ramp(int size) {
 
 TEST(AugmentView, ZoomOneChangesNothing) {
   const TrainingPicture picture = ramp(16);
-  const TrainingPicture same = zoomed(picture, 1, 5, 9);
+  const TrainingPicture same = seen_through(zoom_window(picture, 1, 5, 9), picture);
   for (std::size_t i = 0; i < picture.linear.values().size(); ++i) {
     EXPECT_NEAR(same.linear.data()[i], picture.linear.data()[i], 1e-6) << i;  // float rounding of the weights
     EXPECT_NEAR(same.highlight.data()[i], picture.highlight.data()[i], 1e-6) << i;
@@ -35,7 +35,7 @@ TEST(AugmentView, ZoomOneChangesNothing) {
 TEST(AugmentView, ZoomKeepsItsCentreAndARampARamp) {
   const TrainingPicture picture = ramp(32);
   const double zoom = 2;
-  const TrainingPicture larger = zoomed(picture, zoom, 12, 20);
+  const TrainingPicture larger = seen_through(zoom_window(picture, zoom, 12, 20), picture);
   for (int y = 4; y < 28; ++y) {
     for (int x = 4; x < 28; ++x) {
       const double from_x = 12 + (x + 0.5 - 12) / zoom - 0.5;
@@ -48,7 +48,7 @@ TEST(AugmentView, ZoomKeepsItsCentreAndARampARamp) {
 }
 
 TEST(AugmentView, WhatComesFromOutsideIsBlackAndMarkedAndNoSkin) {
-  const TrainingPicture smaller = zoomed(ramp(32), 0.5, 16, 16);
+  const TrainingPicture smaller = seen_through(zoom_window(ramp(32), 0.5, 16, 16), ramp(32));
   int outside = 0;
   for (int y = 0; y < 32; ++y) {
     for (int x = 0; x < 32; ++x) {

@@ -38,6 +38,23 @@ TEST(Augment, LayersStayInsideThePictureWhateverIsDrawn) {
   }
 }
 
+TEST(Augment, PicturesHaveTheSizeTheConfigSaysAndStayBounded) {
+  const DataFolder folder("sized", 24, 6);
+  const synth::ShardReader reader(folder.data());
+  TrainConfig config;
+  config.picture_px = 32;
+  config.augment.close_share = 0.5;
+  config.augment.zoom_share = 0.5;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    Random random({seed});
+    const TrainingPicture picture = draw_picture(reader, static_cast<int>(seed % 6), config, random);
+    ASSERT_EQ(picture.linear.width(), 32);
+    ASSERT_EQ(picture.linear.height(), 32);
+    for (std::size_t i = 0; i < picture.linear.values().size(); ++i)
+      ASSERT_LE(picture.highlight.data()[i], picture.linear.data()[i]) << seed;
+  }
+}
+
 TEST(BatchOrder, EachRoundHoldsEverySampleOnce) {
   std::multiset<int> first;
   for (std::int64_t step = 0; step < 5; ++step) {
@@ -52,8 +69,8 @@ TEST(BatchOrder, EachRoundHoldsEverySampleOnce) {
 TEST(PlainBatch, HoldsThePicturesPixelByPixel) {
   const DataFolder folder("plain", 24, 3);
   const synth::ShardReader reader(folder.data());
-  const Batch batch = plain_batch(reader, {2, 0});
-  const TrainingPicture picture = plain_picture(reader, 0);
+  const Batch batch = plain_batch(reader, {2, 0}, TrainConfig{});
+  const TrainingPicture picture = plain_picture(reader, 0, TrainConfig{});
   for (int y = 0; y < 24; ++y) {
     for (int x = 0; x < 24; ++x) {
       for (int c = 0; c < 3; ++c) {

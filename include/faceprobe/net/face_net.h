@@ -1,7 +1,8 @@
 #pragma once
 // All that a trained network sees in the picture of one face: its highlights, and the surface and light beneath them. One network with one
 // trunk, because each answer helps the others: a bright spot is a highlight or light skin according to where its normal points. Give it a
-// crop of one face at about the size it was trained at (128 px); it was trained on faces only. Runs on the processor.
+// crop of one face with a head's room around it, at about the size it was trained at (128 px); it was trained on faces only. Weights that say so
+// look twice, at all of the crop and from near at the face mask. Runs on the processor.
 //
 //   const net::FaceNet network("models/face.safetensors", {.threads = 0});
 //   const net::FaceLayers layers = network.layers(crop, clip, mask, mesh_normals);

@@ -14,6 +14,7 @@ namespace faceprobe::net {
 
 inline constexpr const char* kArchitectureKey = "architecture";
 inline constexpr const char* kOptionsKey = "options";
+inline constexpr const char* kPictureKey = "picture_px";  // side of the views it was trained on; missing = as they come
 inline constexpr const char* kUNetArchitecture = "unet";
 inline constexpr const char* kFaceArchitecture = "face";
 inline constexpr const char* kMscrArchitecture = "mscr";

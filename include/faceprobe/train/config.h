@@ -20,6 +20,7 @@ struct AugmentConfig {
   double no_mask_share = 0.15;       // of samples that are given no face mask
   double occluder_share = 0.1;       // of samples that something plain is put before
   double zoom_share = 0.2;           // of samples that are enlarged or made smaller, and moved
+  double close_share = 0;            // of samples cut out so that the face fills them, where its mesh is found
   double cut_share = 0.15;           // of samples with sides cut off, as of a face at the edge of its photo
 };
 
@@ -34,6 +35,8 @@ struct LossConfig {
   double spread = 0.02;  // weight of how well the error that is stated fits the one that is made
   double depth = 0.01;   // weight of the depth's error, of 5 cm
   double region = 0.03;  // weight of the regions' cross entropy
+  double rare =
+      1;  // weight of a pixel of mouth, glasses or object in that, of eyes, lips and brows its root; others have 1
   double shading = 0.1;  // weight of the error of the shading's logarithm
   double colour = 0.1;   // weight of the error of the light's colour, a chord of the unit sphere
 };
@@ -43,7 +46,10 @@ struct TrainConfig {
   // with its plain L2 loss and no augmentation but the mirror.
   std::string architecture = "unet";
   std::string network = "{}";  // the architecture's own options, JSON
-  int batch = 16;              // samples to a step
+  // Side of the square pictures that the network is given, kept with its weights: it then looks at every face twice, at all of the picture
+  // and from near, and is validated on the near view. 0 = pictures as they were rendered.
+  int picture_px = 0;
+  int batch = 16;  // samples to a step
   std::int64_t steps = 20000;
   double learning_rate = 1e-3;  // AdamW's, at its peak
   double weight_decay = 0.01;
