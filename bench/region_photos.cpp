@@ -11,7 +11,7 @@
 #include "faceprobe/io/picture_file.h"
 #include "pipeline/camera_of.h"
 #include "pipeline/face_reader.h"
-#include "pipeline/observe.h"
+#include "faceprobe/pipeline/observe.h"
 #include "support/cells.h"
 #include "support/statistics.h"
 

@@ -17,11 +17,17 @@ struct EvalOptions {
   int rows = 12;  // of pictures
   int samples = 100;
   int threads = 0;
+  // Of the stage relight.
+  std::string object;    // OBJ file; empty = a sphere
+  std::string scenes;    // table of the maps' scenes; empty = not told apart
+  std::string training;  // folder whose mean light is a row
+  bool ablation = false;
 };
 
 int eval_highlight(const EvalOptions& options);
 int eval_geometry(const EvalOptions& options);
 int eval_shading(const EvalOptions& options);
+int eval_relight(const EvalOptions& options);
 
 // NAME=FILE as that pair; of FILE alone its stem is the name.
 std::pair<std::string, std::string> name_and_file(const std::string& named);

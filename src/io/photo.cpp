@@ -1,5 +1,6 @@
 #include "faceprobe/io/photo.h"
 
+#include "faceprobe/core/color.h"
 #include "faceprobe/core/error.h"
 #include "faceprobe/io/data_files.h"
 #include "io/colour_model.h"
@@ -11,6 +12,7 @@
 #include "io/read_file.h"
 
 #include <cmath>
+#include <stdexcept>
 #include <string_view>
 
 namespace faceprobe::io {
@@ -214,6 +216,26 @@ Photo load_photo(const std::filesystem::path& path, const Limits& limits) {
   if (const std::string problem = limits.validate(); !problem.empty()) throw Error(ExitCode::kUsage, problem);
   const std::vector<std::byte> bytes = read_regular_file(path, limits.max_file_bytes, kFileBytesAdvice);
   return photo_from_bytes(bytes, path.string(), limits);
+}
+
+Photo photo_from_srgb(const ByteImage& srgb) {
+  if (srgb.channels() != 3) throw std::invalid_argument("A picture in sRGB has three channels.");
+  Photo photo;
+  photo.linear = decode_srgb(srgb);
+  photo.clipped = ByteImage(srgb.width(), srgb.height(), 1);
+  photo.grey = true;
+  photo.format = "memory";
+  photo.colour_space = "sRGB";
+  constexpr std::uint8_t kBits[] = {kClippedRed, kClippedGreen, kClippedBlue};
+  for (std::size_t i = 0; i < srgb.pixel_count(); ++i) {
+    const std::uint8_t* code = srgb.data() + 3 * i;
+    photo.grey = photo.grey && code[0] == code[1] && code[1] == code[2];
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (code[c] >= clip_threshold<std::uint8_t>())
+        photo.clipped.data()[i] = static_cast<std::uint8_t>(photo.clipped.data()[i] | kBits[c]);
+    }
+  }
+  return photo;
 }
 
 }  // namespace faceprobe::io

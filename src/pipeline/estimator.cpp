@@ -6,7 +6,7 @@
 #include "pipeline/camera_of.h"
 #include "pipeline/estimator_impl.h"
 #include "pipeline/light_result.h"
-#include "pipeline/observe.h"
+#include "faceprobe/pipeline/observe.h"
 #include "pipeline/stopwatch.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "pipeline/observe.h"
+#include "faceprobe/pipeline/observe.h"
 
 #include "faceprobe/core/skin_reflectance.h"
 #include "faceprobe/core/smooth_step.h"

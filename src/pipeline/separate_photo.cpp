@@ -1,6 +1,6 @@
 #include "pipeline/camera_of.h"
 #include "pipeline/estimator_impl.h"
-#include "pipeline/observe.h"
+#include "faceprobe/pipeline/observe.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 #pragma once
-// A data set of a few "faces" for the benchmarks: a ball of cheek under a light from the front, matt.
+// A data set of a few "faces" for the benchmarks: a ball of cheek under a light from the front, matt; their map has a lamp there.
 
 #include "faceprobe/core/color.h"
 #include "faceprobe/core/region.h"
@@ -26,7 +26,9 @@ struct SmallFaces {
     sample.photo = ByteImage(kSize, kSize, 3);
     sample.clip = ByteImage(kSize, kSize, 1);
     sample.highlight = sample.diffuse = sample.albedo = sample.shading = Image(kSize, kSize, 3);
-    sample.environment = EnvMap(4, 2);
+    sample.environment = EnvMap(32, 16);
+    for (float& value : sample.environment.radiance().values()) value = 0.1F;
+    for (int c = 0; c < 3; ++c) sample.environment.radiance()(16, 8, c) = 20;
     sample.settings_json = "{}";
     for (int y = 0; y < kSize; ++y) {
       for (int x = 0; x < kSize; ++x) {
@@ -52,7 +54,7 @@ struct SmallFaces {
     view = out.view;
     truth = sample;
     for (int i = 0; i < 3; ++i) out.samples.push_back(sample);
-    const synth::ShardWriter writer(path(), {.size_px = kSize, .environment_height = 2, .recipe = R"({"seed":1})"});
+    const synth::ShardWriter writer(path(), {.size_px = kSize, .environment_height = 16, .recipe = R"({"seed":1})"});
     writer.write(0, std::vector<synth::ViewSamples>{out});
     writer.finish(1, "");
   }

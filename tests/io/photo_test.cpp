@@ -110,6 +110,20 @@ TEST(PhotoTest, TiledTiff) {
   EXPECT_EQ(largest_difference(load_photo(folder / "x.tif").linear, decode_srgb(image)), 0.0F);
 }
 
+TEST(PhotoTest, APictureInMemoryIsAsIfRead) {
+  ByteImage image(3, 1, 3, 80);
+  image(1, 0, 0) = 255;
+  image(2, 0, 2) = 254;
+  const Photo photo = photo_from_srgb(image);
+  EXPECT_EQ(photo.linear, decode_srgb(image));
+  EXPECT_EQ(photo.clipped(0, 0), 0);
+  EXPECT_EQ(photo.clipped(1, 0), kClippedRed);
+  EXPECT_EQ(photo.clipped(2, 0), kClippedBlue);
+  EXPECT_FALSE(photo.grey);
+  EXPECT_TRUE(photo_from_srgb(ByteImage(2, 2, 3, 90)).grey);
+  EXPECT_THROW(photo_from_srgb(ByteImage(2, 2, 1)), std::invalid_argument);
+}
+
 TEST(PhotoTest, ContentDecidesNotTheExtension) {
   TempFolder folder;
   const ByteImage image = gradient(24, 16, 3);

@@ -3,7 +3,7 @@
 #include "faceprobe/core/angles.h"
 #include "faceprobe/lighting/albedo.h"
 #include "pipeline/light_result.h"
-#include "pipeline/observe.h"
+#include "faceprobe/pipeline/observe.h"
 #include "pipeline/posed_face.h"
 
 #include <gtest/gtest.h>

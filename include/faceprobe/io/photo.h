@@ -42,4 +42,7 @@ struct Photo {
 // Throws Error(kInput) with the reason when the file is not readable, not a picture, of an unsupported kind, or over a limit.
 Photo load_photo(const std::filesystem::path& path, const Limits& limits = {});
 
+// A picture that is decoded already: sRGB, H x W x 3, upright. Throws std::invalid_argument for another number of channels.
+Photo photo_from_srgb(const ByteImage& srgb);
+
 }  // namespace faceprobe::io

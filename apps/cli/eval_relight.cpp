@@ -1,0 +1,66 @@
+#include "eval_stages.h"
+#include "faceprobe/assets/object.h"
+#include "faceprobe/eval/relight_benchmark.h"
+#include "faceprobe/io/atomic_file.h"
+#include "faceprobe/io/picture_file.h"
+#include "relight_methods.h"
+#include "scene_table.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <string>
+
+namespace faceprobe::cli {
+
+namespace {
+
+void print(const eval::ScoreTable& table, const std::string& title, const std::string& metric, int decimals) {
+  fmt::print("\n### {}\n\n{}", title, table.markdown(metric, decimals));
+}
+
+void print_groups(const eval::ScoreTable& table, const std::string& title, const std::string& metric,
+                  const std::string& group, int decimals) {
+  if (table.groups().contains(group))
+    fmt::print("\n### {}\n\n{}", title, table.markdown_by_group(metric, group, decimals));
+}
+
+}  // namespace
+
+int eval_relight(const EvalOptions& options) {
+  const synth::ShardReader faces(options.data);
+  const std::vector<eval::LightMethod> methods =
+      relight_methods({.weights = options.weights.empty() ? "" : name_and_file(options.weights[0]).second,
+                       .training = options.training,
+                       .ablation = options.ablation,
+                       .threads = options.threads});
+  const eval::LitObject object(
+      options.object.empty() ? eval::sphere_mesh() : assets::load_object(options.object), {.threads = options.threads});
+  eval::RelightBenchmark benchmark{.samples = options.samples,
+                                   .rows = options.output.empty() ? 0 : options.rows,
+                                   .progress = eval_progress()};
+  if (!options.scenes.empty()) benchmark.scene = scene_of_maps(options.scenes, faces.recipe());
+  const eval::RelightScores scores = eval::measure_relighting(faces, methods, object, benchmark);
+  const eval::ScoreTable& table = scores.table;
+  fmt::print("{} photos of {}.\n", table.rows().size() / std::max<std::size_t>(1, methods.size()), options.data);
+  print(table, "Diffuse object, RMSE of 255", "diffuse", 1);
+  print_groups(table, "The same by scene", "diffuse", "scene", 1);
+  print(table, "Glossy object, RMSE of 255", "glossy", 1);
+  print_groups(table, "The same by scene", "glossy", "scene", 1);
+  print(table, "Main light, degrees, of photos that one lamp dominates", "main_light", 1);
+  print(table, "Colour of all the light, degrees", "colour", 2);
+  print_groups(table, "The same by skin tone", "colour", "tone", 2);
+  print_groups(table, "Diffuse object by skin tone", "diffuse", "tone", 1);
+  print(table, "Diffuse sphere, error after the best scale", "si_diffuse", 3);
+  print(table, "Rough metal sphere, the same", "si_matte", 3);
+  print(table, "Mirror sphere, the same", "si_mirror", 3);
+  print(table, "Map, error over the estimate's range", "nrmse_map", 3);
+  if (options.output.empty()) return 0;
+  const std::filesystem::path folder = options.output;
+  io::create_folder(folder);
+  io::write_file_atomically(folder / "relight.csv", table.csv());
+  io::write_file_atomically(folder / "relight.json", table.json());
+  if (!scores.picture.empty()) io::write_picture(folder / "relight.png", scores.picture);
+  return 0;
+}
+
+}  // namespace faceprobe::cli

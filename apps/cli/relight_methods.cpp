@@ -1,0 +1,191 @@
+#include "relight_methods.h"
+
+#include "faceprobe/core/error.h"
+#include "faceprobe/io/photo.h"
+#include "faceprobe/lighting/harmonics.h"
+#include "faceprobe/pipeline/estimate.h"
+#include "faceprobe/pipeline/observe.h"
+
+#include <optional>
+#include <utility>
+
+namespace faceprobe::cli {
+
+namespace {
+
+using pipeline::EstimateOptions;
+using pipeline::FaceEstimate;
+
+// The estimate of the photo at hand: several rows ask for it, one after the other.
+class Shared {
+ public:
+  explicit Shared(EstimateOptions options) : estimator_(std::move(options)) {}
+
+  const EstimateOptions& options() const { return estimator_.options(); }
+  // Nothing where no face is found.
+  const FaceEstimate* of(const eval::LightInput& input) {
+    if (known_ != input.number) {
+      known_ = input.number;
+      found_.reset();
+      try {
+        pipeline::Estimate estimate = estimator_.estimate(io::photo_from_srgb(input.photo.photo));
+        found_ = std::move(estimate.faces[estimate.largest]);
+      } catch (const Error& error) {
+        if (error.code() != ExitCode::kNoFace) throw;
+      }
+    }
+    return found_ ? &*found_ : nullptr;
+  }
+
+ private:
+  pipeline::Estimator estimator_;
+  std::optional<FaceEstimate> found_;
+  int known_ = -1;
+};
+using SharedPtr = std::shared_ptr<Shared>;
+
+EstimateOptions estimate_options(const RelightRows& rows) {
+  constexpr int kLeastFacePx = 30;  // in pictures of 128
+  EstimateOptions options;
+  options.weights = rows.weights;
+  options.finder.min_face_px = kLeastFacePx;
+  options.solve.nside = rows.nside;
+  options.threads = rows.threads;
+  return options;
+}
+
+eval::LightMethod whole(const std::string& name, const SharedPtr& shared) {
+  return {name, [shared](const eval::LightInput& input) {
+            const FaceEstimate* face = shared->of(input);
+            return face == nullptr ? Eigen::MatrixX3f() : face->light.radiance;
+          }};
+}
+
+// The same observations, another way from them to the light.
+template <class Solve>
+eval::LightMethod other_solver(const std::string& name, const SharedPtr& shared, const Solve& solve) {
+  return {name, [shared, solve](const eval::LightInput& input) {
+            const FaceEstimate* face = shared->of(input);
+            return face == nullptr ? Eigen::MatrixX3f() : Eigen::MatrixX3f(solve(face->observations));
+          }};
+}
+
+// One lamp where the brightest highlight's mirror direction points, and an even surround, as strong as fit the shading best.
+Eigen::MatrixX3f brightest_spot(const lighting::Observations& o, const SphereGrid& grid) {
+  Eigen::Index spot = 0;
+  o.highlight.rowwise().sum().maxCoeff(&spot);
+  const Eigen::RowVector3f normal = o.normal.row(spot);
+  const Eigen::RowVector3f mirrored = 2 * normal.dot(o.view.row(spot)) * normal - o.view.row(spot);
+  Eigen::Matrix2f products = Eigen::Matrix2f::Identity() * 1e-6F;
+  Eigen::Matrix<float, 2, 3> right = Eigen::Matrix<float, 2, 3>::Zero();
+  for (Eigen::Index i = 0; i < o.count(); ++i) {
+    const Eigen::Vector2f row(1, std::max(0.0F, o.normal.row(i).dot(mirrored)));
+    products += o.weight[i] * row * row.transpose();
+    right += o.weight[i] * row * o.shading.row(i);
+  }
+  const Eigen::Matrix<float, 2, 3> fit = products.inverse() * right;
+  Eigen::MatrixX3f light(grid.cell_count(), 3);
+  light.rowwise() = fit.row(0).cwiseMax(0.0F);
+  // A lamp of one cell whose irradiance over pi is the fit's.
+  const auto cell_over_pi = static_cast<float>(grid.cell_solid_angle() / 3.14159265358979);
+  light.row(grid.cell_of(mirrored.transpose())) += fit.row(1).cwiseMax(0.0F) / cell_over_pi;
+  return light;
+}
+
+face::FaceGeometry true_geometry(const eval::LightInput& input) {
+  const synth::ViewLayers& view = input.view;
+  const int width = view.region.width();
+  const int height = view.region.height();
+  face::FaceGeometry geometry;
+  geometry.crop = {.x_px = 0, .y_px = 0, .scale = 1, .width = width, .height = height};
+  geometry.normal_cam = view.normal;
+  geometry.position_cam_m = geometry.view_cam = Image(width, height, 3);
+  geometry.region = ByteImage(width, height, 1);
+  geometry.normal_error_rad = Image(width, height, 1, 0.01F);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const Eigen::Vector3f towards = input.photo.camera.view_direction(x + 0.5, y + 0.5).cast<float>();
+      Eigen::Map<Eigen::Vector3f>(geometry.view_cam.pixel(x, y)) = towards;
+      if (view.owner(x, y) == 0) continue;
+      geometry.region(x, y) = view.region(x, y);
+      Eigen::Map<Eigen::Vector3f>(geometry.position_cam_m.pixel(x, y)) = -towards * (view.depth_m(x, y) / towards.z());
+    }
+  }
+  return geometry;
+}
+
+// Everything known but the light: what is left is what a face can tell.
+eval::LightMethod all_known(const EstimateOptions& options) {
+  return {"all layers and normals known", [options](const eval::LightInput& input) -> Eigen::MatrixX3f {
+            const face::FaceGeometry geometry = true_geometry(input);
+            const ByteImage no_flags(geometry.region.width(), geometry.region.height(), 1);
+            const lighting::Observations o =
+                pipeline::observe(geometry, input.sample.highlight, input.sample.shading, no_flags,
+                                  options.max_patches, options.threads);
+            lighting::SolveOptions solve = options.solve;
+            solve.highlight_weight = 1;
+            solve.max_leak = 0;
+            return o.count() == 0 ? Eigen::MatrixX3f() : lighting::solve(o, solve).radiance;
+          }};
+}
+
+// The estimate with a part of it known.
+eval::LightMethod partly_known(const std::string& name, const SharedPtr& shared, bool normals, bool layers) {
+  return {name, [=](const eval::LightInput& input) -> Eigen::MatrixX3f {
+            const FaceEstimate* face = shared->of(input);
+            if (face == nullptr) return {};
+            face::FaceGeometry geometry = face->geometry;
+            if (normals) {
+              geometry.normal_cam = face::crop_picture(input.view.normal, geometry.crop);
+              for (std::size_t i = 0; i < geometry.normal_cam.values().size(); i += 3) {
+                Eigen::Map<Eigen::Vector3f> normal(geometry.normal_cam.data() + i);
+                if (normal.norm() > 0) normal.normalize();
+              }
+              geometry.normal_error_rad = Image(geometry.crop.width, geometry.crop.height, 1, 0.01F);
+            }
+            const Image highlight =
+                layers ? face::crop_picture(input.sample.highlight, geometry.crop) : face->layers.highlight;
+            const Image shading = layers ? face::crop_picture(input.sample.shading, geometry.crop) : face->shading;
+            const ByteImage flags = layers ? ByteImage(geometry.crop.width, geometry.crop.height, 1) : face->clipped;
+            const EstimateOptions& options = shared->options();
+            const lighting::Observations o =
+                pipeline::observe(geometry, highlight, shading, flags, options.max_patches, options.threads);
+            return lighting::solve(o, options.solve).radiance;
+          }};
+}
+
+}  // namespace
+
+std::vector<eval::LightMethod> relight_methods(const RelightRows& rows) {
+  const EstimateOptions options = estimate_options(rows);
+  const auto shared = std::make_shared<Shared>(options);
+  const auto grid = std::make_shared<SphereGrid>(rows.nside);
+  lighting::SolveOptions paper = options.solve;
+  paper.solver = lighting::Solver::kPaper;
+  paper.threads = options.threads;
+  std::vector<eval::LightMethod> methods;
+  methods.push_back(whole("transport", shared));
+  methods.push_back(other_solver("paper", shared, [paper](const lighting::Observations& o) {
+    return lighting::solve(o, paper).radiance;
+  }));
+  methods.push_back(all_known(options));
+  if (rows.ablation) {
+    methods.push_back(partly_known("normals known", shared, true, false));
+    methods.push_back(partly_known("layers known", shared, false, true));
+  }
+  methods.push_back(other_solver("harmonics of order 2 from the shading", shared, [grid](const lighting::Observations& o) {
+    return lighting::radiance_of_harmonics(lighting::fit_harmonics(o, 2), *grid);
+  }));
+  methods.push_back(other_solver("lamp at the brightest highlight", shared,
+                                 [grid](const lighting::Observations& o) { return brightest_spot(o, *grid); }));
+  if (!rows.training.empty()) {
+    const synth::ShardReader training(rows.training);
+    methods.push_back(eval::constant_method("mean light of the training data", eval::mean_light(training, 1000, rows.nside)));
+  }
+  methods.push_back(eval::ambient_method(rows.nside));
+  methods.push_back(eval::harmonics_method(2, rows.nside));
+  methods.push_back(eval::harmonics_method(5, rows.nside));
+  return methods;
+}
+
+}  // namespace faceprobe::cli

@@ -1,0 +1,22 @@
+#pragma once
+// The rows of `faceprobe eval relight`: whole estimates from the photo, and what stands beside them.
+
+#include "faceprobe/eval/relight_benchmark.h"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace faceprobe::cli {
+
+struct RelightRows {
+  std::filesystem::path weights;   // of the network; empty = those that come with the program
+  std::filesystem::path training;  // data whose mean light is a row; empty = no such row
+  bool ablation = false;           // rows with a part of the estimate replaced by the truth
+  int nside = 16;
+  int threads = 0;
+};
+std::vector<eval::LightMethod> relight_methods(const RelightRows& rows);
+
+}  // namespace faceprobe::cli

@@ -1,0 +1,65 @@
+#include "scene_table.h"
+
+#include "faceprobe/core/error.h"
+
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+namespace faceprobe::cli {
+
+namespace {
+
+// RFC 4180, one record a line.
+std::vector<std::string> fields(const std::string& line) {
+  std::vector<std::string> out(1);
+  bool quoted = false;
+  for (const char c : line) {
+    if (c == '"') {
+      quoted = !quoted;
+    } else if (c == ',' && !quoted) {
+      out.emplace_back();
+    } else if (c != '\r') {
+      out.back() += c;
+    }
+  }
+  return out;
+}
+
+std::size_t column(const std::vector<std::string>& head, const std::string& name, const std::filesystem::path& table) {
+  for (std::size_t i = 0; i < head.size(); ++i) {
+    if (head[i] == name) return i;
+  }
+  throw Error(ExitCode::kInput, table.string() + " has no column \"" + name + "\" in its first line.");
+}
+
+}  // namespace
+
+std::function<std::string(int map)> scene_of_maps(const std::filesystem::path& table, const std::string& recipe) {
+  std::ifstream file(table);
+  std::string line;
+  if (!std::getline(file, line)) throw Error(ExitCode::kInput, table.string() + " cannot be read, or is empty.");
+  const std::vector<std::string> head = fields(line);
+  const std::size_t name = column(head, "name", table);
+  const std::size_t folder = column(head, "folder", table);
+  std::map<std::string, std::string> scene;
+  while (std::getline(file, line)) {
+    const std::vector<std::string> record = fields(line);
+    if (record.size() > std::max(name, folder)) scene[record[name]] = record[folder];
+  }
+  std::vector<std::string> of_map;
+  const nlohmann::json json = nlohmann::json::parse(recipe, nullptr, false);
+  if (json.is_object() && json.contains("maps")) {
+    for (const auto& map : json["maps"]) {
+      const auto found = scene.find(map.get<std::string>());
+      of_map.push_back(found == scene.end() ? "unknown" : found->second);
+    }
+  }
+  return [of_map](int map) {
+    const auto i = static_cast<std::size_t>(map);
+    return i < of_map.size() ? of_map[i] : std::string("unknown");
+  };
+}
+
+}  // namespace faceprobe::cli

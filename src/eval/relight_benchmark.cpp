@@ -1,0 +1,109 @@
+#include "faceprobe/eval/relight_benchmark.h"
+
+#include "eval/relight_sheet.h"
+#include "eval/synthetic_photo.h"
+#include "faceprobe/core/error.h"
+#include "faceprobe/core/sh.h"
+#include "faceprobe/eval/light_metrics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace faceprobe::eval {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+std::map<std::string, double> all_metrics(const Eigen::MatrixX3f& truth, const Eigen::MatrixX3f& found,
+                                          const LitObject& object, const SphereGrid& grid, bool one_lamp) {
+  using render::SphereMaterial;
+  std::map<std::string, double> metrics;
+  const bool there = found.rows() == grid.cell_count() && found.allFinite() && found.maxCoeff() > 0;
+  const RelightError error = there ? relight_error(object, truth, found) : RelightError{kNaN, kNaN};
+  metrics["diffuse"] = error.diffuse;
+  metrics["glossy"] = error.glossy;
+  const std::pair<const char*, SphereMaterial> spheres[] = {
+      {"diffuse", SphereMaterial::kDiffuse}, {"matte", SphereMaterial::kMatte}, {"mirror", SphereMaterial::kMirror}};
+  for (const auto& [name, material] : spheres) {
+    const SphereError sphere = there ? sphere_error(truth, found, grid, material) : SphereError{kNaN, kNaN, kNaN};
+    metrics[std::string("si_") + name] = sphere.si_rmse;
+    metrics[std::string("angle_") + name] = sphere.angular_deg;
+    metrics[std::string("nrmse_") + name] = sphere.nrmse;
+  }
+  const MapError map = there ? map_error(truth, found) : MapError{kNaN, kNaN};
+  metrics["nrmse_map"] = map.over_estimate_range;
+  metrics["nrmse_map_truth"] = map.over_truth_range;
+  metrics["colour"] = there ? light_colour_error_deg(truth, found) : kNaN;
+  if (one_lamp) metrics["main_light"] = there ? main_light_error_deg(truth, found, grid) : kNaN;
+  return metrics;
+}
+
+}  // namespace
+
+LightMethod ambient_method(int nside) {
+  const int cells = SphereGrid(nside).cell_count();
+  return {"ambient", [cells](const LightInput&) { return Eigen::MatrixX3f(Eigen::MatrixX3f::Ones(cells, 3)); }};
+}
+
+LightMethod harmonics_method(int order, int nside) {
+  const SphereGrid grid(nside);
+  Eigen::MatrixXd basis(grid.cell_count(), sh::coefficient_count(order));
+  for (int j = 0; j < grid.cell_count(); ++j) basis.row(j) = sh::basis(order, grid.direction(j).cast<double>()).transpose();
+  return {"truth in harmonics of order " + std::to_string(order),
+          [basis, order](const LightInput& input) -> Eigen::MatrixX3f {
+            return (basis * sh::project(input.sample.environment, order)).cwiseMax(0.0).cast<float>();
+          }};
+}
+
+LightMethod constant_method(const std::string& name, Eigen::MatrixX3f light) {
+  return {name, [light = std::move(light)](const LightInput&) { return light; }};
+}
+
+Eigen::MatrixX3f mean_light(const synth::ShardReader& faces, int samples, int nside) {
+  const SphereGrid grid(nside);
+  Eigen::MatrixX3f mean = Eigen::MatrixX3f::Zero(grid.cell_count(), 3);
+  for (const int number : evenly_chosen(faces, samples)) {
+    const Eigen::MatrixX3f light = grid_from_env_map(faces.copy_sample(number).environment, grid);
+    if (const float level = light.mean(); level > 0) mean += light / level;
+  }
+  return mean;
+}
+
+std::string RelightBenchmark::validate() const {
+  if (samples < 1 || samples > 1'000'000) return "samples is " + std::to_string(samples) + "; allowed is 1 to 1000000.";
+  if (rows < 0 || rows > 200) return "rows is " + std::to_string(rows) + "; allowed is 0 to 200.";
+  if (nside < 2 || nside > 32) return "nside is " + std::to_string(nside) + "; allowed is 2 to 32.";
+  return {};
+}
+
+RelightScores measure_relighting(const synth::ShardReader& faces, const std::vector<LightMethod>& methods,
+                                 const LitObject& object, const RelightBenchmark& options) {
+  if (const std::string problem = options.validate(); !problem.empty()) throw Error(ExitCode::kUsage, problem);
+  const SphereGrid grid(options.nside);
+  RelightScores scores;
+  scores.table.order_labels("tone", tone_names());
+  RelightSheet sheet(object, grid, options.rows, static_cast<int>(methods.size()));
+  int visited = 0;
+  visit_photos(faces, options.samples, options.progress, [&](int number, const SyntheticPhoto& photo) {
+    const Eigen::MatrixX3f truth = grid_from_env_map(photo.sample.environment, grid);
+    const bool one_lamp = has_dominant_light(truth, grid);
+    std::map<std::string, std::string> groups = {{"tone", photo.tone()},
+                                                 {"light", one_lamp ? "one lamp" : "several or soft"}};
+    if (options.scene) groups["scene"] = options.scene(photo.sample.map);
+    const bool drawn = sheet.takes(visited++, options.samples);
+    if (drawn) sheet.begin_row(photo.sample.photo, truth);
+    const PhotoInput input = photo.input();
+    for (const LightMethod& method : methods) {
+      const Eigen::MatrixX3f found = method.light({number, input, photo.sample, photo.view});
+      scores.table.add(
+          {method.name, std::to_string(number), groups, all_metrics(truth, found, object, grid, one_lamp)});
+      if (drawn) sheet.add(found);
+    }
+  });
+  scores.picture = sheet.picture();
+  return scores;
+}
+
+}  // namespace faceprobe::eval
