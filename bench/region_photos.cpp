@@ -9,9 +9,9 @@
 #include "faceprobe/io/data_files.h"
 #include "faceprobe/io/photo.h"
 #include "faceprobe/io/picture_file.h"
+#include "faceprobe/pipeline/observe.h"
 #include "pipeline/camera_of.h"
 #include "pipeline/face_reader.h"
-#include "faceprobe/pipeline/observe.h"
 #include "support/cells.h"
 #include "support/statistics.h"
 

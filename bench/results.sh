@@ -5,12 +5,13 @@
 #   bench/results.sh --data DIR [BUILD_DIR]
 #   bench/results.sh --data DIR --only direction [BUILD_DIR]     one of: best_case separation highlight highlight_makehuman
 #                                                                highlight_photos highlight_people highlight_net geometry
-#                                                                shading region_photos surface_photos robustness
+#                                                                shading relight region_photos surface_photos robustness
 #                                                                direction speed
 #                                                                synth_cycles synth_speed synth_rate
 #   bench/results.sh --data DIR --faces FACES ...                for highlight, highlight_people, geometry and shading: the dev
 #                                                                faces of docs/training.md; they are left as they are without them
-#   bench/results.sh --data DIR --training FACES ...             for highlight_people: the training faces, likewise
+#   bench/results.sh --data DIR --training FACES ...             for highlight_people and relight: the training faces, likewise
+#   bench/results.sh --data DIR --light FACES ...                for relight: the faces for it, likewise
 #
 # BUILD_DIR (build/test) is built with FACEPROBE_BUILD_BENCH=ON, and FACEPROBE_TRAIN=ON for those of highlight layers; speed and
 # synth_rate measure the command of build/release, which scripts/build.sh makes. Ends with 1 when a benchmark misses its bar; its section is
@@ -19,10 +20,11 @@ set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 sections=(best_case separation highlight highlight_makehuman highlight_photos highlight_people highlight_net geometry shading
-          region_photos surface_photos robustness direction speed synth_cycles synth_speed synth_rate)
+          relight region_photos surface_photos robustness direction speed synth_cycles synth_speed synth_rate)
 data=
 faces=
 training=
+light=
 only=
 build=$root/build/test
 while [ $# -gt 0 ]; do
@@ -30,8 +32,9 @@ while [ $# -gt 0 ]; do
     --data) data=${2:?--data takes a folder}; shift ;;
     --faces) faces=${2:?--faces takes a folder}; shift ;;
     --training) training=${2:?--training takes a folder}; shift ;;
+    --light) light=${2:?--light takes a folder}; shift ;;
     --only) only=${2:?--only takes a section}; shift ;;
-    -*) echo "unknown option $1; there are --data, --faces, --training and --only." >&2; exit 2 ;;
+    -*) echo "unknown option $1; there are --data, --faces, --training, --light and --only." >&2; exit 2 ;;
     *) build=$1 ;;
   esac
   shift
@@ -56,6 +59,7 @@ title_of() {
     highlight_net) echo "What the network costs" ;;
     geometry) echo "Normals and regions of synthetic faces" ;;
     shading) echo "Albedo and shading of synthetic faces" ;;
+    relight) echo "Light of synthetic faces, and what it does to an object" ;;
     region_photos) echo "Regions of photos" ;;
     surface_photos) echo "Albedo of photos" ;;
     robustness) echo "Many kinds of photo" ;;
@@ -74,6 +78,9 @@ command_of() {
       echo "BUILD/bin/faceprobe eval highlight --data FACES --weights 'highlights alone=models/highlight.safetensors'" \
         "--weights net=models/face.safetensors" ;;
     geometry | shading) echo "BUILD/bin/faceprobe eval $1 --data FACES --weights net=models/face.safetensors --samples 200" ;;
+    relight)
+      echo "BUILD/bin/faceprobe eval relight --data LIGHT --object DIR/objects/stanford-bunny.obj --scenes DIR/hdri/dev.csv" \
+        "--training TRAINING --ablation --samples 100" ;;
     highlight_makehuman) echo "bench/makehuman.sh --data DIR" ;;
     highlight_people) echo "bench/people.sh --data DIR --faces FACES --training TRAINING" ;;
     speed) echo "bench/speed.sh" ;;
@@ -90,6 +97,9 @@ run_section() {
         --weights net="$root/models/face.safetensors" ;;
     geometry | shading)
       "$build/bin/faceprobe" eval "$1" --data "$faces" --weights net="$root/models/face.safetensors" --samples 200 ;;
+    relight)
+      "$build/bin/faceprobe" eval relight --data "$light" --object "$data/objects/stanford-bunny.obj" --scenes "$data/hdri/dev.csv" \
+        --training "$training" --ablation --samples 100 ;;
     highlight_makehuman) "$root/bench/makehuman.sh" --data "$data" "$build" ;;
     highlight_people) "$root/bench/people.sh" --data "$data" --faces "$faces" --training "$training" "$build" ;;
     speed) "$root/bench/speed.sh" ;;
@@ -126,6 +136,10 @@ for section in "${sections[@]}"; do
   fi
   if [ "$section" = highlight_people ] && { [ -z "$faces" ] || [ -z "$training" ]; }; then
     echo "results: highlight_people is left as it is; --faces and --training name the synthetic faces of docs/training.md." >&2
+    continue
+  fi
+  if [ "$section" = relight ] && { [ -z "$light" ] || [ -z "$training" ]; }; then
+    echo "results: relight is left as it is; --light and --training name the synthetic faces of docs/training.md." >&2
     continue
   fi
   echo "results: $section" >&2

@@ -14,6 +14,7 @@ void add_separate(CLI::App& program, Action& action);
 void add_info(CLI::App& program, Action& action);
 void add_synth(CLI::App& program, Action& action);
 void add_mesh(CLI::App& program, Action& action);
+void add_trace(CLI::App& program, Action& action);
 CLI::App* add_unwrap(CLI::App& synth, Action& action);  // under synth
 void add_train(CLI::App& program, Action& action);
 void add_finetune(CLI::App& program, Action& action);

@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <vector>
 
 namespace faceprobe::cli {
 
@@ -23,6 +24,7 @@ struct Options : SharedOptions {
   std::string orientation = "openexr";
   bool json = false;
   bool timings = false;
+  bool same_light = false;
 };
 
 using Clock = std::chrono::steady_clock;
@@ -56,12 +58,34 @@ void print_timings(double start_s, double load_s, const pipeline::Estimate& esti
   std::fprintf(stderr, "%-24s %8.1f\n", "total", 1e3 * total);
 }
 
+void write_map(const std::string& path, const EnvMap& map, Orientation orientation, io::Attributes attributes) {
+  attributes["faceprobe:map_columns"] = pipeline::orientation_name(orientation);
+  io::write_env_map(path, map, orientation, attributes);
+}
+
+// One light of the faces of all photos.
+void write_same_light(const std::vector<pipeline::FaceEvidence>& faces, const pipeline::Estimator& estimator,
+                      const std::string& output, const pipeline::OutputOptions& how) {
+  const pipeline::LightResult light = estimator.joint(faces);
+  if (is_map_file(output)) {
+    write_map(output, light.environment, how.orientation, pipeline::provenance(estimator.options()));
+    spdlog::info("{} faces in one light, wrote {}", faces.size(), output);
+  } else {
+    const std::filesystem::path folder = std::filesystem::path(output) / "joint";
+    const auto files = pipeline::write_light(folder, light, estimator.options(), how);
+    spdlog::info("{} faces in one light, wrote {} files to {}", faces.size(), files.size(), folder.string());
+  }
+}
+
 int run(const Options& options) {
   const bool map_only = is_map_file(options.output);
-  if (map_only && options.inputs.size() > 1) {
+  if (map_only && options.inputs.size() > 1 && !options.same_light) {
     throw Error(ExitCode::kUsage, "-o " + options.output + " names one map, but there are " +
-                                      std::to_string(options.inputs.size()) + " photos; name a folder.");
+                                      std::to_string(options.inputs.size()) +
+                                      " photos; name a folder, or say --same-light if one light is in all of them.");
   }
+  if (options.same_light && options.inputs.size() < 2)
+    throw Error(ExitCode::kUsage, "--same-light is for several photos, found one; leave it out.");
   const pipeline::EstimateOptions wanted = estimate_options(options);
   pipeline::OutputOptions output;
   output.orientation = orientation_from_name(options.orientation);
@@ -69,6 +93,7 @@ int run(const Options& options) {
   const pipeline::Estimator estimator(wanted);
   double models_s = seconds_since(start);
   int code = 0;
+  std::vector<pipeline::FaceEvidence> evidence;
   for (std::size_t i = 0; i < options.inputs.size(); ++i) {
     // One bad photo among several does not cost the others theirs: the code is 8 then, the photo's own when it is alone.
     const int one = run_guarded([&] {
@@ -78,10 +103,14 @@ int run(const Options& options) {
       const pipeline::Estimate estimate = estimator.estimate(photo);
       for (const std::string& warning : estimate.warnings) spdlog::warn("{}: {}", options.inputs[i], warning);
       start = Clock::now();
-      if (map_only) {
-        io::Attributes attributes = pipeline::provenance(photo, estimator.options());
-        attributes["faceprobe:map_columns"] = pipeline::orientation_name(output.orientation);
-        io::write_env_map(options.output, estimate.faces[estimate.largest].environment, output.orientation, attributes);
+      if (options.same_light) {
+        for (const pipeline::FaceEstimate& face : estimate.faces) evidence.push_back(pipeline::evidence_of(face));
+      }
+      if (map_only && options.same_light) {
+        spdlog::info("{}: {} face(s)", options.inputs[i], estimate.faces.size());
+      } else if (map_only) {
+        write_map(options.output, estimate.faces[estimate.largest].environment, output.orientation,
+                  pipeline::provenance(photo, estimator.options()));
         spdlog::info("{}: {} face(s), wrote {}", options.inputs[i], estimate.faces.size(), options.output);
       } else {
         const std::string folder = folder_for(options.output, options, i);
@@ -99,6 +128,7 @@ int run(const Options& options) {
     });
     if (one != 0) code = options.inputs.size() > 1 ? static_cast<int>(ExitCode::kBatchFailures) : one;
   }
+  if (!evidence.empty()) write_same_light(evidence, estimator, options.output, output);
   return code;
 }
 
@@ -115,6 +145,8 @@ void add_estimate(CLI::App& program, Action& action) {
       ->capture_default_str();
   command->add_flag("--json", options->json, "print the report on stdout");
   command->add_flag("--timings", options->timings, "print a table of stage times on stderr");
+  command->add_flag("--same-light", options->same_light,
+                    "the photos are of one camera, place and light, as a burst is: also one map of all their faces");
   command
       ->add_option("--orient", options->orientation, "column convention of the maps: openexr, three, blender, debevec")
       ->capture_default_str();
@@ -123,7 +155,8 @@ void add_estimate(CLI::App& program, Action& action) {
   command->footer(
       "Examples:\n  faceprobe estimate portrait.jpg -o out\n  faceprobe estimate portrait.jpg -o light.exr --orient "
       "blender\n"
-      "  faceprobe estimate a.jpg b.jpg -o out --json > reports.json");
+      "  faceprobe estimate a.jpg b.jpg -o out --json > reports.json\n"
+      "  faceprobe estimate burst_*.jpg --same-light -o light.exr");
   command->callback([options, &action] { action = [options] { return run(*options); }; });
 }
 

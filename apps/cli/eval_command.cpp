@@ -47,6 +47,7 @@ void add_eval(CLI::App& program, Action& action) {
   command->add_option("--object", options->object, "relight: OBJ file to put in the light; a sphere without");
   command->add_option("--scenes", options->scenes, "relight: CSV that names the maps indoor or outdoor");
   command->add_option("--training", options->training, "relight: data whose mean light is a row");
+  command->add_option("--prior-weights", options->prior, "relight: weights of the light prior");
   command->add_flag("--ablation", options->ablation, "relight: rows with normals or layers known");
   command->add_option("--device", options->device, "auto, cpu, cuda or cuda:N")->capture_default_str();
   command->add_option("--threads", options->threads, "0 = all processors")->capture_default_str();

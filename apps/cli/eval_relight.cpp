@@ -30,14 +30,14 @@ int eval_relight(const EvalOptions& options) {
   const synth::ShardReader faces(options.data);
   const std::vector<eval::LightMethod> methods =
       relight_methods({.weights = options.weights.empty() ? "" : name_and_file(options.weights[0]).second,
+                       .prior = options.prior,
                        .training = options.training,
                        .ablation = options.ablation,
                        .threads = options.threads});
-  const eval::LitObject object(
-      options.object.empty() ? eval::sphere_mesh() : assets::load_object(options.object), {.threads = options.threads});
-  eval::RelightBenchmark benchmark{.samples = options.samples,
-                                   .rows = options.output.empty() ? 0 : options.rows,
-                                   .progress = eval_progress()};
+  const eval::LitObject object(options.object.empty() ? eval::sphere_mesh() : assets::load_object(options.object),
+                               {.threads = options.threads});
+  eval::RelightBenchmark benchmark{
+      .samples = options.samples, .rows = options.output.empty() ? 0 : options.rows, .progress = eval_progress()};
   if (!options.scenes.empty()) benchmark.scene = scene_of_maps(options.scenes, faces.recipe());
   const eval::RelightScores scores = eval::measure_relighting(faces, methods, object, benchmark);
   const eval::ScoreTable& table = scores.table;

@@ -21,6 +21,7 @@ struct EvalOptions {
   std::string object;    // OBJ file; empty = a sphere
   std::string scenes;    // table of the maps' scenes; empty = not told apart
   std::string training;  // folder whose mean light is a row
+  std::string prior;     // weights of the light prior; empty = those that come with the program
   bool ablation = false;
 };
 

@@ -55,6 +55,7 @@ int main(int argc, char** argv) {
 #ifdef FACEPROBE_HAS_SYNTH
   cli::add_synth(program, action);
   cli::add_mesh(program, action);
+  cli::add_trace(program, action);
 #endif
 #ifdef FACEPROBE_HAS_TRAIN
   cli::add_train(program, action);

@@ -48,6 +48,7 @@ EstimateOptions estimate_options(const RelightRows& rows) {
   constexpr int kLeastFacePx = 30;  // in pictures of 128
   EstimateOptions options;
   options.weights = rows.weights;
+  options.prior_weights = rows.prior;
   options.finder.min_face_px = kLeastFacePx;
   options.solve.nside = rows.nside;
   options.threads = rows.threads;
@@ -119,9 +120,8 @@ eval::LightMethod all_known(const EstimateOptions& options) {
   return {"all layers and normals known", [options](const eval::LightInput& input) -> Eigen::MatrixX3f {
             const face::FaceGeometry geometry = true_geometry(input);
             const ByteImage no_flags(geometry.region.width(), geometry.region.height(), 1);
-            const lighting::Observations o =
-                pipeline::observe(geometry, input.sample.highlight, input.sample.shading, no_flags,
-                                  options.max_patches, options.threads);
+            const lighting::Observations o = pipeline::observe(geometry, input.sample.highlight, input.sample.shading,
+                                                               no_flags, options.max_patches, options.threads);
             lighting::SolveOptions solve = options.solve;
             solve.highlight_weight = 1;
             solve.max_leak = 0;
@@ -165,22 +165,29 @@ std::vector<eval::LightMethod> relight_methods(const RelightRows& rows) {
   paper.threads = options.threads;
   std::vector<eval::LightMethod> methods;
   methods.push_back(whole("transport", shared));
-  methods.push_back(other_solver("paper", shared, [paper](const lighting::Observations& o) {
-    return lighting::solve(o, paper).radiance;
+  methods.push_back(other_solver("transport without the prior", shared, [options](const lighting::Observations& o) {
+    return lighting::solve(o, options.solve).radiance;
   }));
+  methods.push_back(other_solver(
+      "paper", shared, [paper](const lighting::Observations& o) { return lighting::solve(o, paper).radiance; }));
   methods.push_back(all_known(options));
   if (rows.ablation) {
+    EstimateOptions mesh = options;
+    mesh.normals = pipeline::NormalSource::kMesh;
+    methods.push_back(whole("normals of the mesh", std::make_shared<Shared>(mesh)));
     methods.push_back(partly_known("normals known", shared, true, false));
     methods.push_back(partly_known("layers known", shared, false, true));
   }
-  methods.push_back(other_solver("harmonics of order 2 from the shading", shared, [grid](const lighting::Observations& o) {
-    return lighting::radiance_of_harmonics(lighting::fit_harmonics(o, 2), *grid);
-  }));
+  methods.push_back(
+      other_solver("harmonics of order 2 from the shading", shared, [grid](const lighting::Observations& o) {
+        return lighting::radiance_of_harmonics(lighting::fit_harmonics(o, 2), *grid);
+      }));
   methods.push_back(other_solver("lamp at the brightest highlight", shared,
                                  [grid](const lighting::Observations& o) { return brightest_spot(o, *grid); }));
   if (!rows.training.empty()) {
     const synth::ShardReader training(rows.training);
-    methods.push_back(eval::constant_method("mean light of the training data", eval::mean_light(training, 1000, rows.nside)));
+    methods.push_back(
+        eval::constant_method("mean light of the training data", eval::mean_light(training, 1000, rows.nside)));
   }
   methods.push_back(eval::ambient_method(rows.nside));
   methods.push_back(eval::harmonics_method(2, rows.nside));

@@ -61,6 +61,11 @@ void add_solver_options(CLI::App& command, SharedOptions& options) {
       .add_option("--shading", options.shading,
                   "what splits the diffuse layer: net (trained), or regions (one albedo a region)")
       ->capture_default_str();
+  command
+      .add_option(
+          "--prior", options.prior,
+          "what light the transport solver starts from: net (trained), or smooth (one lamp and an even surround)")
+      ->capture_default_str();
   command.add_option("--iterations", options.iterations, "Richardson-Lucy iterations")->capture_default_str();
   command.add_option("--size", options.size, "width of the environment map, or WIDTHxHEIGHT with WIDTH = 2 HEIGHT")
       ->capture_default_str();
@@ -128,6 +133,8 @@ pipeline::EstimateOptions estimate_options(const SharedOptions& options) {
                        pipeline::NormalSource::kMesh);
   out.shading = one_of(options.shading, "--shading", "net", pipeline::ShadingSource::kNet, "regions",
                        pipeline::ShadingSource::kRegions);
+  out.prior =
+      one_of(options.prior, "--prior", "net", pipeline::PriorSource::kNet, "smooth", pipeline::PriorSource::kSmooth);
   out.solve.solver = lighting::solver_from_name(options.solver);
   out.solve.iterations = options.iterations;
   out.map_width = parse_map_width(options.size);

@@ -19,6 +19,7 @@ struct SharedOptions {
   std::string landmarks;
   std::string geometry = "net";
   std::string shading = "net";
+  std::string prior = "net";
   std::optional<double> focal_px;
   int iterations = pipeline::EstimateOptions{}.solve.iterations;
   std::string size = "256";

@@ -3,6 +3,7 @@
 #include "faceprobe/io/data_files.h"
 #include "faceprobe/io/picture_file.h"
 #include "faceprobe/train/train.h"
+#include "train_light_command.h"
 
 #include <spdlog/spdlog.h>
 
@@ -46,6 +47,8 @@ void log_row(const train::TrainProgress& progress) {
 }
 
 int run(Options options) {
+  if (options.net == "light")
+    return train_light(options.run, options.config.empty() ? std::string() : read_text(options.config));
   if (!options.config.empty()) options.run.config = train::train_config_from_json(read_text(options.config));
   train::TrainConfig& config = options.run.config;
   if (options.config.empty() && options.net == "face") config.architecture = "face";
@@ -80,7 +83,9 @@ int run(Options options) {
 void add_train(CLI::App& program, Action& action) {
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand("train", "trains a network on synthetic faces");
-  command->add_option("NET", options->net, "which one")->required()->check(CLI::IsMember({"highlight", "face"}));
+  command->add_option("NET", options->net, "which one")
+      ->required()
+      ->check(CLI::IsMember({"highlight", "face", "light"}));
   command->add_option("--config", options->config, "training config, JSON; without it the defaults")
       ->check(CLI::ExistingFile);
   command->add_option("--data", options->run.data, "folder that `faceprobe synth` wrote")->required();

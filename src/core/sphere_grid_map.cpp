@@ -1,7 +1,10 @@
 #include "faceprobe/core/sphere_grid.h"
 
+#include "faceprobe/core/angles.h"
+
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace faceprobe {
 
@@ -51,6 +54,28 @@ EnvMap env_map_from_grid(const Eigen::MatrixX3f& cells, const SphereGrid& grid, 
     for (int x = 0; x < width; ++x) Eigen::Map<Eigen::Array3f>(map.radiance().pixel(x, y)) *= gain;
   }
   return map;
+}
+
+Eigen::MatrixX3f grid_from_grid(const Eigen::MatrixX3f& cells, const SphereGrid& from, const SphereGrid& to) {
+  if (cells.rows() != from.cell_count()) throw std::invalid_argument("A grid's light needs one row a cell.");
+  const double spacing = std::sqrt(std::max(from.cell_solid_angle(), to.cell_solid_angle()));
+  const auto width = static_cast<float>(0.5 * spacing);
+  const auto least_cosine = static_cast<float>(std::cos(std::min(kPi, 2.5 * spacing)));
+  Eigen::MatrixX3f out = Eigen::MatrixX3f::Zero(to.cell_count(), 3);
+  for (int i = 0; i < to.cell_count(); ++i) {
+    const Eigen::RowVector3f centre = to.directions().row(i);
+    float sum = 0;
+    for (int j = 0; j < from.cell_count(); ++j) {
+      const float cosine = from.directions().row(j).dot(centre);
+      if (cosine < least_cosine) continue;
+      const float angle = std::acos(std::min(1.0F, cosine)) / width;
+      const float weight = std::exp(-0.5F * angle * angle);
+      out.row(i) += weight * cells.row(j);
+      sum += weight;
+    }
+    out.row(i) /= sum;
+  }
+  return out;
 }
 
 }  // namespace faceprobe

@@ -50,7 +50,8 @@ LightMethod ambient_method(int nside) {
 LightMethod harmonics_method(int order, int nside) {
   const SphereGrid grid(nside);
   Eigen::MatrixXd basis(grid.cell_count(), sh::coefficient_count(order));
-  for (int j = 0; j < grid.cell_count(); ++j) basis.row(j) = sh::basis(order, grid.direction(j).cast<double>()).transpose();
+  for (int j = 0; j < grid.cell_count(); ++j)
+    basis.row(j) = sh::basis(order, grid.direction(j).cast<double>()).transpose();
   return {"truth in harmonics of order " + std::to_string(order),
           [basis, order](const LightInput& input) -> Eigen::MatrixX3f {
             return (basis * sh::project(input.sample.environment, order)).cwiseMax(0.0).cast<float>();
@@ -97,8 +98,7 @@ RelightScores measure_relighting(const synth::ShardReader& faces, const std::vec
     const PhotoInput input = photo.input();
     for (const LightMethod& method : methods) {
       const Eigen::MatrixX3f found = method.light({number, input, photo.sample, photo.view});
-      scores.table.add(
-          {method.name, std::to_string(number), groups, all_metrics(truth, found, object, grid, one_lamp)});
+      scores.table.add({method.name, std::to_string(number), groups, all_metrics(truth, found, object, grid, one_lamp)});
       if (drawn) sheet.add(found);
     }
   });

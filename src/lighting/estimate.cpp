@@ -29,8 +29,9 @@ std::string SolveOptions::validate() const {
   return {};
 }
 
-Light solve(const Observations& observations, const SolveOptions& options) {
-  return options.solver == Solver::kPaper ? solve_paper(observations, options) : solve_transport(observations, options);
+Light solve(const Observations& observations, const SolveOptions& options, const Eigen::MatrixX3f& expected) {
+  return options.solver == Solver::kPaper ? solve_paper(observations, options)
+                                          : solve_transport(observations, options, expected);
 }
 
 }  // namespace faceprobe::lighting

@@ -40,7 +40,8 @@ Eigen::MatrixX3f radiance_of_harmonics(const Eigen::MatrixX3d& coefficients, con
     throw std::invalid_argument("The number of harmonics must be a square.");
   Eigen::MatrixX3f radiance(grid.cell_count(), 3);
   for (int j = 0; j < grid.cell_count(); ++j)
-    radiance.row(j) = (sh::basis(order, grid.direction(j).cast<double>()).transpose() * coefficients).cwiseMax(0.0).cast<float>();
+    radiance.row(j) =
+        (sh::basis(order, grid.direction(j).cast<double>()).transpose() * coefficients).cwiseMax(0.0).cast<float>();
   return radiance;
 }
 

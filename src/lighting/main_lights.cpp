@@ -55,30 +55,30 @@ std::string MainLightOptions::validate() const {
   return {};
 }
 
-std::vector<MainLight> main_lights(const Eigen::MatrixX3f& radiance, const SphereGrid& grid,
-                                   const MainLightOptions& options, const Eigen::VectorXf& confidence) {
+namespace {
+
+// A light among its surroundings: the cells that are above them and nearer to this peak than to another.
+struct FoundLight {
+  MainLight light;
+  std::vector<int> cells;
+};
+
+void check(const Eigen::MatrixX3f& radiance, const SphereGrid& grid, const MainLightOptions& options,
+           const Eigen::VectorXf& confidence) {
   if (const std::string fault = options.validate(); !fault.empty()) throw std::invalid_argument(fault);
   if (radiance.rows() != grid.cell_count() || (confidence.size() > 0 && confidence.size() != radiance.rows()))
     throw std::invalid_argument("Main lights need one radiance, and one confidence or none, per cell.");
-  const Eigen::VectorXd level = luminance_of(radiance);
-  const double energy = level.sum() * grid.cell_solid_angle();
-  if (!(energy > 0)) return {};
-  const double ambient = median_of(level);
-  Eigen::VectorXd smooth = blurred(level, grid, radians(options.blur_deg));
-  // What hardly anything observed is neither a light nor outshines one.
-  for (Eigen::Index j = 0; j < confidence.size(); ++j) {
-    if (confidence[j] < static_cast<float>(options.min_confidence)) smooth[j] = 0;
-  }
+}
 
-  // Peaks: cells that nothing within the separation outshines, brightest first.
+// Cells that nothing within the separation outshines, brightest first.
+std::vector<int> find_peaks(const Eigen::VectorXd& smooth, const SphereGrid& grid, double least, float least_cosine) {
   std::vector<int> order(static_cast<std::size_t>(grid.cell_count()));
   for (int i = 0; i < grid.cell_count(); ++i) order[static_cast<std::size_t>(i)] = i;
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return smooth[a] > smooth[b]; });
-  const auto least_cosine = static_cast<float>(std::cos(radians(options.separation_deg)));
   std::vector<char> suppressed(order.size(), 0);
   std::vector<int> peaks;
   for (const int cell : order) {
-    if (smooth[cell] < options.min_contrast * ambient) break;
+    if (smooth[cell] < least) break;
     if (suppressed[static_cast<std::size_t>(cell)]) continue;
     const Eigen::VectorXf cosines = grid.directions() * grid.direction(cell);
     bool local_maximum = true;
@@ -90,40 +90,88 @@ std::vector<MainLight> main_lights(const Eigen::MatrixX3f& radiance, const Spher
     }
     if (local_maximum) peaks.push_back(cell);
   }
+  return peaks;
+}
 
-  std::vector<MainLight> lights;
-  for (const int peak : peaks) {
-    MainLight light;
-    Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
-    Eigen::Vector3d colour = Eigen::Vector3d::Zero();
-    double peak_radiance = 0;
-    for (int j = 0; j < grid.cell_count(); ++j) {
-      const Eigen::Vector3f d = grid.direction(j);
-      const float to_peak = d.dot(grid.direction(peak));
-      if (to_peak < least_cosine || level[j] <= ambient) continue;
-      const bool nearest =
-          std::all_of(peaks.begin(), peaks.end(), [&](int other) { return d.dot(grid.direction(other)) <= to_peak; });
-      if (!nearest) continue;
-      const double above = (level[j] - ambient) * grid.cell_solid_angle();
-      // Squared weights keep the direction with the peak when the neighbourhood holds a broad, lopsided glow.
-      centroid += above * level[j] * d.cast<double>();
-      colour += above * radiance.row(j).transpose().cast<double>() / level[j];
-      light.irradiance += above;
-      peak_radiance = std::max(peak_radiance, level[j]);
-    }
-    if (!(light.irradiance > 0)) continue;
-    light.direction = centroid.normalized();
-    light.colour = colour / (0.2126 * colour[0] + 0.7152 * colour[1] + 0.0722 * colour[2]);
-    light.peak_radiance = peak_radiance;
-    light.solid_angle_sr = light.irradiance / (peak_radiance - ambient);
-    light.share = light.irradiance / energy;
-    if (light.share >= options.min_share) lights.push_back(light);
+FoundLight gather(int peak, const std::vector<int>& peaks, const Eigen::MatrixX3f& radiance,
+                  const Eigen::VectorXd& level, double ambient, const SphereGrid& grid, float least_cosine) {
+  FoundLight found;
+  MainLight& light = found.light;
+  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
+  Eigen::Vector3d colour = Eigen::Vector3d::Zero();
+  for (int j = 0; j < grid.cell_count(); ++j) {
+    const Eigen::Vector3f d = grid.direction(j);
+    const float to_peak = d.dot(grid.direction(peak));
+    if (to_peak < least_cosine || level[j] <= ambient) continue;
+    const bool nearest =
+        std::all_of(peaks.begin(), peaks.end(), [&](int other) { return d.dot(grid.direction(other)) <= to_peak; });
+    if (!nearest) continue;
+    found.cells.push_back(j);
+    const double above = (level[j] - ambient) * grid.cell_solid_angle();
+    // Squared weights keep the direction with the peak when the neighbourhood holds a broad, lopsided glow.
+    centroid += above * level[j] * d.cast<double>();
+    colour += above * radiance.row(j).transpose().cast<double>() / level[j];
+    light.irradiance += above;
+    light.peak_radiance = std::max(light.peak_radiance, level[j]);
   }
-  std::stable_sort(lights.begin(), lights.end(),
-                   [](const MainLight& a, const MainLight& b) { return a.irradiance > b.irradiance; });
-  if (lights.size() > static_cast<std::size_t>(options.max_lights))
-    lights.resize(static_cast<std::size_t>(options.max_lights));
+  if (!(light.irradiance > 0)) return found;
+  light.direction = centroid.normalized();
+  light.colour = colour / (0.2126 * colour[0] + 0.7152 * colour[1] + 0.0722 * colour[2]);
+  light.solid_angle_sr = light.irradiance / (light.peak_radiance - ambient);
+  return found;
+}
+
+struct FoundLights {
+  std::vector<FoundLight> lights;  // by falling irradiance
+  double ambient = 0;
+};
+
+FoundLights find_lights(const Eigen::MatrixX3f& radiance, const SphereGrid& grid, const MainLightOptions& options,
+                        const Eigen::VectorXf& confidence) {
+  const Eigen::VectorXd level = luminance_of(radiance);
+  const double energy = level.sum() * grid.cell_solid_angle();
+  if (!(energy > 0)) return {};
+  FoundLights found;
+  found.ambient = median_of(level);
+  Eigen::VectorXd smooth = blurred(level, grid, radians(options.blur_deg));
+  // What hardly anything observed is neither a light nor outshines one.
+  for (Eigen::Index j = 0; j < confidence.size(); ++j) {
+    if (confidence[j] < static_cast<float>(options.min_confidence)) smooth[j] = 0;
+  }
+  const auto least_cosine = static_cast<float>(std::cos(radians(options.separation_deg)));
+  const std::vector<int> peaks = find_peaks(smooth, grid, options.min_contrast * found.ambient, least_cosine);
+  for (const int peak : peaks) {
+    FoundLight light = gather(peak, peaks, radiance, level, found.ambient, grid, least_cosine);
+    light.light.share = light.light.irradiance / energy;
+    if (light.light.irradiance > 0 && light.light.share >= options.min_share) found.lights.push_back(std::move(light));
+  }
+  std::stable_sort(found.lights.begin(), found.lights.end(),
+                   [](const FoundLight& a, const FoundLight& b) { return a.light.irradiance > b.light.irradiance; });
+  if (found.lights.size() > static_cast<std::size_t>(options.max_lights))
+    found.lights.resize(static_cast<std::size_t>(options.max_lights));
+  return found;
+}
+
+}  // namespace
+
+std::vector<MainLight> main_lights(const Eigen::MatrixX3f& radiance, const SphereGrid& grid,
+                                   const MainLightOptions& options, const Eigen::VectorXf& confidence) {
+  check(radiance, grid, options, confidence);
+  std::vector<MainLight> lights;
+  for (FoundLight& found : find_lights(radiance, grid, options, confidence).lights) lights.push_back(found.light);
   return lights;
+}
+
+Eigen::MatrixX3f without_main_lights(const Eigen::MatrixX3f& radiance, const SphereGrid& grid, int count,
+                                     const MainLightOptions& options, const Eigen::VectorXf& confidence) {
+  check(radiance, grid, options, confidence);
+  const FoundLights found = find_lights(radiance, grid, options, confidence);
+  Eigen::MatrixX3f rest = radiance;
+  const Eigen::VectorXd level = luminance_of(radiance);
+  for (std::size_t i = 0; i < found.lights.size() && i < static_cast<std::size_t>(std::max(0, count)); ++i) {
+    for (const int cell : found.lights[i].cells) rest.row(cell) *= static_cast<float>(found.ambient / level[cell]);
+  }
+  return rest;
 }
 
 }  // namespace faceprobe::lighting

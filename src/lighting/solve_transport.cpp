@@ -115,11 +115,14 @@ Rows stack(const Observations& o, const Transport& transport, const SolveOptions
 
 // Colours the luminance solution: few multiplicative steps per channel from a map of one colour, so that colour varies over the
 // sphere no faster than the data insist on. Separate deconvolutions of the channels would give coloured speckle.
-Eigen::MatrixX3f coloured(const Rows& rows, const Eigen::VectorXf& level, const SolveOptions& options) {
+// `colours`: #cells x 3 of luminance 1 to start from, or empty.
+Eigen::MatrixX3f coloured(const Rows& rows, const Eigen::VectorXf& level, const Eigen::MatrixX3f& colours,
+                          const SolveOptions& options) {
   const Eigen::RowVector3f flux = rows.weight.transpose() * rows.data;
   const float total = flux.dot(kLuminance.transpose());
-  Eigen::RowVector3f mean_colour = (flux / total).cwiseMax(1e-4F);
-  const Eigen::MatrixXf start = (level.cwiseMax(1e-12F)) * mean_colour;
+  const Eigen::RowVector3f mean_colour = (flux / total).cwiseMax(1e-4F);
+  Eigen::MatrixXf start = (level.cwiseMax(1e-12F)) * mean_colour;
+  if (colours.rows() > 0) start = level.cwiseMax(1e-12F).asDiagonal() * colours;
   const RichardsonLucyResult solved = richardson_lucy(rows.transport, rows.weight, rows.data, rows.bound, start,
                                                       rl_options(options, options.colour_iterations));
   Eigen::MatrixX3f radiance = solved.estimate;
@@ -130,8 +133,8 @@ Eigen::MatrixX3f coloured(const Rows& rows, const Eigen::VectorXf& level, const 
   return radiance;
 }
 
-// Cells that hardly anything observes take the ambient level: the median of what is observed well.
-void fill_unobserved(const Eigen::VectorXf& sensitivity, Light& light) {
+// How well each cell is observed, and the median of those that are observed well.
+void rate(const Eigen::VectorXf& sensitivity, Light& light) {
   // Relative to a typical observed cell: the largest sensitivities belong to grazing mirror angles and say little of the rest.
   const float least = 1e-3F * sensitivity.maxCoeff();
   if (!(least > 0)) return;  // the face's own horizon blocks everything
@@ -146,16 +149,38 @@ void fill_unobserved(const Eigen::VectorXf& sensitivity, Light& light) {
     }
     light.ambient[channel] = quantile(observed, 0.5);
   }
-  for (Eigen::Index j = 0; j < sensitivity.size(); ++j) {
+}
+
+// Cells that hardly anything observes take the ambient level.
+void fill_unobserved(Light& light) {
+  for (Eigen::Index j = 0; j < light.confidence.size(); ++j) {
     const float t = std::clamp((light.confidence[j] - 0.01F) / 0.09F, 0.0F, 1.0F);
     const float trust = t * t * (3.0F - 2.0F * t);
     light.radiance.row(j) = trust * light.radiance.row(j) + (1.0F - trust) * light.ambient.transpose();
   }
 }
 
+// What is expected, in luminance, on the scale of the shading. Never black: Richardson-Lucy could not light a black cell again.
+Eigen::VectorXf expected_start(const Eigen::MatrixX3f& expected, const Transport& transport, const Observations& o,
+                               float level) {
+  constexpr float kDarkest = 1e-3F;  // of the level
+  const Eigen::VectorXf luminance = expected * kLuminance;
+  const float predicted = weighted_sum(o.weight, transport.diffuse * luminance);
+  const float found = weighted_sum(o.weight, o.shading * kLuminance);
+  return (luminance * (predicted > 0 ? found / predicted : 0.0F)).cwiseMax(kDarkest * level);
+}
+
+Eigen::MatrixX3f colours_of(const Eigen::MatrixX3f& light) {
+  constexpr float kDarkest = 1e-6F;
+  Eigen::MatrixX3f colours = light.cwiseMax(kDarkest);
+  const Eigen::VectorXf luminance = colours * kLuminance;
+  for (Eigen::Index j = 0; j < colours.rows(); ++j) colours.row(j) /= luminance[j];
+  return colours;
+}
+
 }  // namespace
 
-Light solve_transport(const Observations& observations, const SolveOptions& options) {
+Light solve_transport(const Observations& observations, const SolveOptions& options, const Eigen::MatrixX3f& expected) {
   if (const std::string fault = options.validate(); !fault.empty()) throw std::invalid_argument(fault);
   if (const std::string fault = observations.validate(); !fault.empty()) throw std::invalid_argument(fault);
   const SphereGrid grid(options.nside);
@@ -163,6 +188,9 @@ Light solve_transport(const Observations& observations, const SolveOptions& opti
   light.radiance.setZero(grid.cell_count(), 3);
   light.confidence.setZero(grid.cell_count());
   light.ambient.setZero();
+  const bool has_expected = expected.rows() > 0;
+  if (has_expected && (expected.rows() != grid.cell_count() || !(expected.minCoeff() >= 0) || !expected.allFinite()))
+    throw std::invalid_argument("The expected light must have one radiance per cell, not negative.");
   if (observations.count() == 0) return light;
 
   const Transport transport = build_transport(observations, grid, options.threads);
@@ -175,7 +203,7 @@ Light solve_transport(const Observations& observations, const SolveOptions& opti
     const SmoothFit fit = fit_smooth_light(patches, patches.shading * kLuminance, patches.clipped.rowwise().any());
     // Never silenced: two lamps from opposite sides are misfit too, and they are data.
     patches.weight = patches.weight.cwiseProduct(fit.trust.cwiseMax(0.2F));
-    start = smooth_radiance(fit, grid, level);
+    start = has_expected ? expected_start(expected, transport, patches, level) : smooth_radiance(fit, grid, level);
     fit_highlights(patches, transport.highlight, transport.diffuse, options, start, level, light, patches.highlight);
   } else {
     const float per_unit = weighted_sum(patches.weight, transport.highlight.rowwise().sum());
@@ -189,8 +217,10 @@ Light solve_transport(const Observations& observations, const SolveOptions& opti
   const Flags bound = rows.bound.rowwise().any();
   const RichardsonLucyResult solved = richardson_lucy(rows.transport, rows.weight, rows.data * kLuminance, bound, start,
                                                       rl_options(options, options.iterations));
-  light.radiance = coloured(rows, solved.estimate.col(0), options);
-  fill_unobserved(solved.sensitivity, light);
+  light.radiance =
+      coloured(rows, solved.estimate.col(0), has_expected ? colours_of(expected) : Eigen::MatrixX3f(), options);
+  rate(solved.sensitivity, light);
+  if (!has_expected) fill_unobserved(light);
   return light;
 }
 

@@ -1,15 +1,15 @@
 #include "faceprobe/core/error.h"
 #include "faceprobe/face/canonical_mesh.h"
 #include "faceprobe/io/data_files.h"
-#include "faceprobe/lighting/albedo.h"
-#include "pipeline/apply_surface.h"
 #include "pipeline/camera_of.h"
 #include "pipeline/estimator_impl.h"
+#include "pipeline/expected_light.h"
 #include "pipeline/light_result.h"
-#include "faceprobe/pipeline/observe.h"
+#include "pipeline/read_layers.h"
 #include "pipeline/stopwatch.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace faceprobe::pipeline {
 
@@ -22,34 +22,12 @@ EstimateOptions checked(EstimateOptions options) {
   return options;
 }
 
-// Shading = diffuse / albedo on the skin. What the eyes and the mouth reflect is not skin shading.
-Image divide(const Image& diffuse, const Image& albedo, const ByteImage& skin) {
-  Image shading(diffuse.width(), diffuse.height(), 3);
-  for (int y = 0; y < diffuse.height(); ++y) {
-    for (int x = 0; x < diffuse.width(); ++x) {
-      if (skin(x, y) == 0) continue;
-      for (int c = 0; c < 3; ++c) shading(x, y, c) = diffuse(x, y, c) / std::max(1e-3F, albedo(x, y, c));
-    }
-  }
-  return shading;
-}
-
-// What turned out to be no skin has no highlights.
-void keep_on_skin(const ByteImage& region, highlight::Layers& layers) {
-  for (std::size_t i = 0; i < region.pixel_count(); ++i) {
-    if (region.data()[i] >= 1 && region.data()[i] <= kSkinRegionCount) continue;
-    for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) {
-      layers.diffuse.data()[c] += layers.highlight.data()[c];
-      layers.highlight.data()[c] = 0;
-    }
-  }
-}
-
 }  // namespace
 
 Estimator::Impl::Impl(EstimateOptions wanted)
     : options(checked(std::move(wanted))), finder(options.finder),
-      mesh(face::load_canonical_mesh(io::data_file("canonical-face-model.obj"))), reader(options) {}
+      mesh(face::load_canonical_mesh(io::data_file("canonical-face-model.obj"))), reader(options),
+      prior(load_prior(options)) {}
 
 std::vector<face::Face> Estimator::Impl::faces_of(const io::Photo& photo, const face::Camera& camera) const {
   if (options.landmarks_px) return {finder.from_landmarks(photo.linear, camera, *options.landmarks_px)};
@@ -69,31 +47,10 @@ FaceEstimate Estimator::Impl::analyse(const io::Photo& photo, const face::Camera
   watch.lap("geometry");
 
   const bool enough = shown_share(crop, photo.linear.width(), photo.linear.height()) >= options.least_shown;
-  Reading reading = reader.read(out.picture, out.clipped, skin_regions(out.geometry.region), out.geometry, enough);
-  out.layers = std::move(reading.layers);
-  if (reading.surface && options.normals == NormalSource::kNet) {
-    apply_normals(*reading.surface, out.geometry);
-    keep_on_skin(out.geometry.region, out.layers);
-  }
-  watch.lap("highlights and normals");
-
-  const ByteImage skin = skin_regions(out.geometry.region);
-  if (reading.surface && !reading.surface->shading.empty() && options.shading == ShadingSource::kNet) {
-    AlbedoShading split = split_diffuse(*reading.surface, out.layers.diffuse, skin);
-    out.albedo = std::move(split.albedo);
-    out.shading = std::move(split.shading);
-    out.light_colour = split.light_colour;
-  } else {
-    const lighting::AlbedoModel albedo = lighting::fit_albedo(out.layers.diffuse, skin, out.clipped, photo.grey);
-    out.light_colour = albedo.light_colour;
-    out.albedo = lighting::albedo_picture(albedo, skin);
-    out.shading = divide(out.layers.diffuse, out.albedo, skin);
-  }
-  watch.lap("albedo and shading");
-
-  out.observations =
-      observe(out.geometry, out.layers.highlight, out.shading, out.clipped, options.max_patches, options.threads);
-  lighting::Light light = lighting::solve(out.observations, options.solve);
+  read_layers(reader, options, photo.grey, enough, out, &watch);
+  const Eigen::MatrixX3f expected =
+      prior ? expected_light(*prior, out.observations, options.solve.nside) : Eigen::MatrixX3f();
+  lighting::Light light = lighting::solve(out.observations, options.solve, expected);
   watch.lap("light");
   static_cast<LightResult&>(out) = light_result(std::move(light), options);
   watch.lap("maps and main lights");
@@ -109,6 +66,12 @@ const EstimateOptions& Estimator::options() const { return impl_->options; }
 
 std::vector<face::Face> Estimator::find_faces(const io::Photo& photo) const {
   return impl_->faces_of(photo, camera_of(photo, impl_->options).camera);
+}
+
+LightResult Estimator::joint(const std::vector<FaceEvidence>& faces) const {
+  if (faces.empty()) throw std::invalid_argument("A joint light needs a face.");
+  const net::LightPrior* prior = impl_->prior ? &*impl_->prior : nullptr;
+  return light_result(joint_light(faces, impl_->options, prior), impl_->options);
 }
 
 Estimate Estimator::estimate(const io::Photo& photo) const {
@@ -152,7 +115,9 @@ Estimate Estimator::estimate(const io::Photo& photo) const {
             : "The photo is grey: the classical separators need colour, so the light comes from shading alone.");
   }
   if (out.faces.size() > 1) {
-    out.joint = light_result(joint_light(out.faces, impl_->options), impl_->options);
+    std::vector<FaceEvidence> evidence;
+    for (const FaceEstimate& face : out.faces) evidence.push_back(evidence_of(face));
+    out.joint = joint(evidence);
     watch.lap("joint light");
   }
   return out;

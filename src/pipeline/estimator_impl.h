@@ -2,6 +2,7 @@
 // What an Estimator holds: the options, the networks and the mesh.
 
 #include "faceprobe/core/error.h"
+#include "faceprobe/net/light_prior.h"
 #include "faceprobe/pipeline/estimate.h"
 #include "pipeline/face_reader.h"
 
@@ -18,6 +19,7 @@ struct Estimator::Impl {
   face::FaceFinder finder;
   face::CanonicalMesh mesh;
   FaceReader reader;
+  std::optional<net::LightPrior> prior;
 };
 
 // The sentence for a photo without a face.

@@ -1,6 +1,7 @@
 #include "pipeline/light_result.h"
 
 #include "faceprobe/core/sh.h"
+#include "pipeline/expected_light.h"
 
 #include <cmath>
 
@@ -42,31 +43,34 @@ LightResult light_result(lighting::Light light, const EstimateOptions& options) 
   return result;
 }
 
-lighting::Light joint_light(const std::vector<FaceEstimate>& faces, const EstimateOptions& options) {
+FaceEvidence evidence_of(const FaceEstimate& face) { return {face.observations, energy(face.light)}; }
+
+lighting::Light joint_light(const std::vector<FaceEvidence>& faces, const EstimateOptions& options,
+                            const net::LightPrior* prior) {
   double log_mean = 0;
   int lit = 0;
-  for (const FaceEstimate& face : faces) {
-    const double own = energy(face.light);
-    if (own > 0) {
-      log_mean += std::log(own);
-      ++lit;
-    }
+  for (const FaceEvidence& face : faces) {
+    if (!(face.energy > 0)) continue;
+    log_mean += std::log(face.energy);
+    ++lit;
   }
   const double wanted = lit > 0 ? std::exp(log_mean / lit) : 1.0;
   std::vector<lighting::Observations> sets;
-  for (const FaceEstimate& face : faces) {
-    const double own = energy(face.light);
-    if (!(own > 0)) continue;
+  for (const FaceEvidence& face : faces) {
+    if (!(face.energy > 0)) continue;
     // Every step-th patch, standing for its neighbours: memory stays that of one face.
     const auto step = static_cast<Eigen::Index>(lit);
     const Eigen::Index kept = (face.observations.count() + step - 1) / step;
     lighting::Observations set = thinned(face.observations, kept, step);
-    const auto gain = static_cast<float>(wanted / own);
+    const auto gain = static_cast<float>(wanted / face.energy);
     set.highlight *= gain;
     set.shading *= gain;
     sets.push_back(std::move(set));
   }
-  return lighting::solve(lighting::concatenate(sets), options.solve);
+  const lighting::Observations all = lighting::concatenate(sets);
+  const Eigen::MatrixX3f expected =
+      prior != nullptr ? expected_light(*prior, all, options.solve.nside) : Eigen::MatrixX3f();
+  return lighting::solve(all, options.solve, expected);
 }
 
 }  // namespace faceprobe::pipeline

@@ -7,6 +7,7 @@
 #include "faceprobe/io/picture_file.h"
 #include "faceprobe/pipeline/overview.h"
 #include "faceprobe/pipeline/report.h"
+#include "faceprobe/pipeline/scene_files.h"
 #include "pipeline/canvas.h"
 
 #include <atomic>
@@ -41,13 +42,25 @@ class Writer {
     drawing(folder / (name + ".png"),
             [&image, exposed] { return encode_srgb(image, exposed ? display_gain(image) : 1.0F); });
   }
-  void maps(const Path& folder, const LightResult& light) {
+  void text(const Path& path, std::function<std::string()> write) {
+    job(path, [path, write = std::move(write)] { io::write_file_atomically(path, write()); });
+  }
+  // The map, and scenes of other tools that stand on the map without its main light.
+  void maps(const Path& folder, const LightResult& light, const EstimateOptions& options) {
     for (const char* extension : {".exr", ".hdr", ".png"}) {
       const Path path = folder / (std::string("environment") + extension);
       job(path, [this, path, &light] { io::write_env_map(path, light.environment, output_.orientation, attributes_); });
     }
     const Path path = folder / "confidence.exr";
     job(path, [this, path, &light] { io::write_picture(path, single_channel(light.confidence), attributes_); });
+    const std::string rest = "environment_rest.exr";
+    job(folder / rest, [this, at = folder / rest, &light, &options] {
+      io::Attributes attributes = attributes_;
+      attributes["faceprobe:map_columns"] = orientation_name(Orientation::kOpenExr);
+      io::write_env_map(at, rest_of_environment(light, options), Orientation::kOpenExr, attributes);
+    });
+    text(folder / "light.usda", [&light, rest] { return usd_scene(light, rest); });
+    text(folder / "blender.py", [&light, rest] { return blender_script(light, rest); });
   }
   void run(int threads) {
     // A job or two more than processors: writing is partly waiting.
@@ -76,14 +89,14 @@ class Writer {
 };
 
 void add_face(const Path& folder, const Estimate& estimate, const io::Photo& photo, std::size_t index,
-              const OutputOptions& output, Writer& writer) {
+              const EstimateOptions& options, const OutputOptions& output, Writer& writer) {
   const FaceEstimate& face = estimate.faces[index];
   io::create_folder(folder);
   if (output.overview) {
     writer.drawing(folder / "overview.png",
                    [&estimate, &photo, index] { return draw_overview(estimate, photo, index, 1); });
   }
-  writer.maps(folder, face);
+  writer.maps(folder, face, options);
   if (!output.layers) return;
   writer.layer(folder, "highlight", face.layers.highlight, false);
   writer.layer(folder, "diffuse", face.layers.diffuse, false);
@@ -104,12 +117,28 @@ std::string orientation_name(Orientation orientation) {
   }
 }
 
-std::map<std::string, std::string> provenance(const io::Photo& photo, const EstimateOptions& options) {
+std::map<std::string, std::string> provenance(const EstimateOptions& options) {
   return {{"faceprobe:version", std::string(kVersion)},
           {"faceprobe:frame", "camera: +x right, +y up, +z to the viewer"},
           {"faceprobe:separator", options.separator_name()},
-          {"faceprobe:solver", std::string(lighting::solver_name(options.solve.solver))},
-          {"faceprobe:input_sha256", photo.sha256}};
+          {"faceprobe:solver", std::string(lighting::solver_name(options.solve.solver))}};
+}
+
+std::map<std::string, std::string> provenance(const io::Photo& photo, const EstimateOptions& options) {
+  std::map<std::string, std::string> attributes = provenance(options);
+  attributes["faceprobe:input_sha256"] = photo.sha256;
+  return attributes;
+}
+
+std::vector<Path> write_light(const Path& folder, const LightResult& light, const EstimateOptions& options,
+                              const OutputOptions& output) {
+  io::Attributes attributes = provenance(options);
+  attributes["faceprobe:map_columns"] = orientation_name(output.orientation);
+  Writer writer(output, std::move(attributes));
+  io::create_folder(folder);
+  writer.maps(folder, light, options);
+  writer.run(options.threads);
+  return std::move(writer).written();
 }
 
 std::vector<Path> write_outputs(const Path& folder, const Estimate& estimate, const io::Photo& photo,
@@ -119,16 +148,16 @@ std::vector<Path> write_outputs(const Path& folder, const Estimate& estimate, co
   Writer writer(output, std::move(attributes));
   io::create_folder(folder);
   if (estimate.faces.size() == 1) {
-    add_face(folder, estimate, photo, 0, output, writer);
+    add_face(folder, estimate, photo, 0, options, output, writer);
   } else {
     for (std::size_t i = 0; i < estimate.faces.size(); ++i) {
-      add_face(folder / ("face_" + std::to_string(i + 1)), estimate, photo, i, output, writer);
+      add_face(folder / ("face_" + std::to_string(i + 1)), estimate, photo, i, options, output, writer);
     }
     if (estimate.joint) {
       io::create_folder(folder / "joint");
-      writer.maps(folder / "joint", *estimate.joint);
+      writer.maps(folder / "joint", *estimate.joint, options);
     }
-    writer.maps(folder, estimate.faces[estimate.largest]);
+    writer.maps(folder, estimate.faces[estimate.largest], options);
     if (output.overview) {
       writer.drawing(folder / "overview.png", [&] { return draw_overview(estimate, photo, estimate.largest, 1); });
     }

@@ -1,6 +1,6 @@
+#include "faceprobe/pipeline/observe.h"
 #include "pipeline/camera_of.h"
 #include "pipeline/estimator_impl.h"
-#include "faceprobe/pipeline/observe.h"
 
 #include <algorithm>
 #include <cmath>

@@ -31,6 +31,7 @@ case_bad_options() {
   expect_refused 2 "cpu or cuda" estimate "$photo" --device gpu
   expect_refused 2 "openexr, three, blender or debevec" estimate "$photo" --orient mars
   expect_refused 2 "mesh" estimate "$photo" --geometry scan
+  expect_refused 2 "smooth" estimate "$photo" --prior crystal
   expect_refused 2 "iterations" estimate "$photo" --iterations 0
   expect_refused 2 "layer_px" estimate "$photo" --layer-px 5
   expect_refused 2 "focal" estimate "$photo" --focal-px -3

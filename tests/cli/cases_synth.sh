@@ -90,3 +90,21 @@ case_face_network() {
   expect_refused 5 "run/config.json" eval geometry --data faces --weights run/config.json
   expect_refused 3 "nowhere" mesh nowhere
 }
+
+case_light_prior() {
+  expect_exit 0 synth --count 4 --size 64 --views 2 --lights 2 --seed 4 -o faces
+  expect_refused 3 "faceprobe mesh faces" trace faces
+  expect_exit 0 mesh faces --threads 1
+  expect_refused 3 "faceprobe trace faces" train light --data faces -o run
+  expect_exit 0 trace faces --threads 1
+  echo '{"epoch": 2}' >wrong.json
+  expect_refused 2 "epoch" train light --config wrong.json --data faces -o run
+  expect_refused 2 "from the start" train light --data faces --start wrong.json -o run
+  expect_exit 0 eval relight --data faces --samples 4 --rows 2 -o scores --threads 1
+  expect_stdout "| transport |"
+  expect_stdout "| ambient |"
+  expect_files scores relight.csv relight.json relight.png
+  expect_refused 3 "wrong.json" eval relight --data faces --samples 4 --scenes wrong.json
+  expect_refused 3 "nowhere.obj" eval relight --data faces --samples 4 --object nowhere.obj
+  expect_refused 5 "wrong.json" eval relight --data faces --samples 4 --prior-weights wrong.json
+}

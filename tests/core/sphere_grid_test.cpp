@@ -109,5 +109,24 @@ TEST(SphereGrid, SmallMapsDoNotMissSmallLamps) {
   }
 }
 
+TEST(SphereGrid, LightMovesToAnotherGridWhereItWas) {
+  const SphereGrid coarse(4);
+  const SphereGrid fine(16);
+  Eigen::MatrixX3f light = Eigen::MatrixX3f::Ones(coarse.cell_count(), 3);
+  EXPECT_LT((grid_from_grid(light, coarse, fine).array() - 1).abs().maxCoeff(), 1e-5F);
+  for (const int cell : {0, 50, 100, 191}) {
+    Eigen::MatrixX3f lamp = Eigen::MatrixX3f::Zero(coarse.cell_count(), 3);
+    lamp(cell, 1) = 10;
+    const Eigen::MatrixX3f seen = grid_from_grid(lamp, coarse, fine);
+    Eigen::Index brightest = 0;
+    seen.col(1).maxCoeff(&brightest);
+    EXPECT_GT(fine.direction(static_cast<int>(brightest)).dot(coarse.direction(cell)), std::cos(0.08));  // a fine cell
+    // Weights are of equal-area cells, so the energy stays to a few percent.
+    EXPECT_NEAR(seen.col(1).sum() / 16, 10, 0.6);
+    EXPECT_TRUE(seen.col(0).isZero());
+  }
+  EXPECT_THROW(grid_from_grid(light, fine, coarse), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace faceprobe

@@ -19,8 +19,8 @@ Eigen::MatrixX3f constant(const SphereGrid& grid, float level) {
 synth::SurfaceMesh screen_before_a_wall() {
   synth::SurfaceMesh mesh;
   mesh.vertices.resize(8, 3);
-  mesh.vertices << -1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0, -0.2F, -0.2F, 0.5F, 0.2F, -0.2F, 0.5F, 0.2F, 0.2F, 0.5F, -0.2F,
-      0.2F, 0.5F;
+  mesh.vertices << -1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0, -0.2F, -0.2F, 0.5F, 0.2F, -0.2F, 0.5F, 0.2F, 0.2F, 0.5F,
+      -0.2F, 0.2F, 0.5F;
   mesh.triangles.resize(4, 3);
   mesh.triangles << 0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7;
   mesh.normals = Eigen::RowVector3f(0, 0, 1).replicate(8, 1);

@@ -18,8 +18,10 @@ TEST(RelightBenchmark, TheTruthHasNoErrorAndEverythingElseHas) {
   const SmallFaces small;
   const synth::ShardReader faces(small.path());
   const LitObject sphere(sphere_mesh(32), {.size_px = 24});
-  const std::vector<LightMethod> methods = {truth_method(), ambient_method(), harmonics_method(2), harmonics_method(5),
-                                            {"blind", [](const LightInput&) { return Eigen::MatrixX3f(); }}};
+  const std::vector<LightMethod> methods = {
+      truth_method(), ambient_method(), harmonics_method(2), harmonics_method(5), {"blind", [](const LightInput&) {
+                                                                                     return Eigen::MatrixX3f();
+                                                                                   }}};
   const RelightScores scores = measure_relighting(faces, methods, sphere, {.samples = 3, .rows = 2});
   const auto mean = [&](const std::string& metric, const std::string& method) {
     return scores.table.summary(metric, {.method = method}).mean;

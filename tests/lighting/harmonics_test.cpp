@@ -12,12 +12,11 @@ namespace {
 TEST(Harmonics, ComeBackFromTheirShading) {
   Observations face = testing::ellipsoid_face();
   Eigen::MatrixX3d truth(9, 3);
-  truth << 3, 2.5, 2, 0.8, 0.5, 0.2, 1, 1.1, 1.2, -0.6, -0.4, -0.2, 0.2, 0, 0, 0.1, 0.1, 0, -0.2, 0.1, 0, 0, 0.2, 0.1, 0.1, 0,
-      -0.1;
+  truth << 3, 2.5, 2, 0.8, 0.5, 0.2, 1, 1.1, 1.2, -0.6, -0.4, -0.2, 0.2, 0, 0, 0.1, 0.1, 0, -0.2, 0.1, 0, 0, 0.2, 0.1,
+      0.1, 0, -0.1;
   for (Eigen::Index i = 0; i < face.count(); ++i)
-    face.shading.row(i) = (sh::irradiance(truth, face.normal.row(i).transpose().cast<double>()) / 3.14159265358979)
-                              .transpose()
-                              .cast<float>();
+    face.shading.row(i) =
+        (sh::irradiance(truth, face.normal.row(i).transpose().cast<double>()) / 3.14159265358979).transpose().cast<float>();
   const Eigen::MatrixX3d found = fit_harmonics(face, 2, 1e-9);
   EXPECT_LT((found - truth).cwiseAbs().maxCoeff(), 0.02);  // shading in single precision, and normals of one side only
 }
@@ -25,11 +24,11 @@ TEST(Harmonics, ComeBackFromTheirShading) {
 TEST(Harmonics, ALampIsBrightestOnItsSideAndNeverNegative) {
   const SphereGrid grid(16);
   Observations face = testing::ellipsoid_face();
-  const Eigen::Vector3d towards = testing::direction_from_angles(40, 10);
+  const Eigen::Vector3d towards = direction_from_angles(40, 10);
   testing::light_up(face, grid, testing::lamp(grid, towards, 1, 0.01F));
   const Eigen::MatrixX3f light = radiance_of_harmonics(fit_harmonics(face, 2), grid);
   EXPECT_GE(light.minCoeff(), 0);
-  EXPECT_LT(testing::angle_between_deg(testing::brightest_direction(light, grid), towards), 20);  // order 2 is broad
+  EXPECT_LT(angle_between_deg(testing::brightest_direction(light, grid), towards), 20);  // order 2 is broad
 }
 
 TEST(Harmonics, ClippedPatchesSayNothing) {

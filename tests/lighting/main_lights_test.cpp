@@ -53,5 +53,25 @@ TEST(MainLights, EvenLightAndDarknessHaveNone) {
   EXPECT_TRUE(main_lights(Eigen::MatrixX3f::Zero(grid.cell_count(), 3), grid).empty());
 }
 
+TEST(MainLights, TheRestAndTheLampAreAllTheLight) {
+  const SphereGrid grid(16);
+  Eigen::MatrixX3f map = lamp(grid, direction_from_angles(60, 20), 6, 0.02F, {1.4F, 1, 0.5F});
+  map += 2.0F * lamp(grid, direction_from_angles(-60, 10), 6, 0.0F);
+  const std::vector<MainLight> lights = main_lights(map, grid);
+  ASSERT_EQ(lights.size(), 2U);
+  const Eigen::MatrixX3f rest = without_main_lights(map, grid, 1);
+  const Eigen::Vector3d whole = map.cast<double>().colwise().sum().transpose() * grid.cell_solid_angle();
+  const Eigen::Vector3d left = rest.cast<double>().colwise().sum().transpose() * grid.cell_solid_angle();
+  const Eigen::Vector3d lamp = lights[0].irradiance * lights[0].colour;
+  EXPECT_LT((left + lamp - whole).cwiseAbs().maxCoeff(), 1e-4);  // float
+  EXPECT_GE(rest.minCoeff(), 0);
+  // The other one is what is brightest now; with both gone nothing is.
+  const std::vector<MainLight> others = main_lights(rest, grid);
+  ASSERT_EQ(others.size(), 1U);
+  EXPECT_NEAR(azimuth_deg(others[0].direction), 60, 4);
+  EXPECT_TRUE(main_lights(without_main_lights(map, grid, 5), grid).empty());
+  EXPECT_EQ(without_main_lights(map, grid, 0), map);
+}
+
 }  // namespace
 }  // namespace faceprobe::lighting

@@ -114,6 +114,43 @@ TEST(Solve, ConfidenceFallsFromFrontToBack) {
   EXPECT_TRUE(light.radiance.row(grid.cell_of({0, 0, -1})).isApprox(light.ambient.transpose(), 0.05F));
 }
 
+TEST(Solve, WhatIsExpectedStaysWhereNothingIsObserved) {
+  const SphereGrid grid(16);
+  Observations face = ellipsoid_face();
+  const Eigen::MatrixX3f map = lamp(grid, {0.4, 0.5, 0.8}, 12, 0.2F);
+  light_up(face, grid, map);
+  // Right but for a blue lamp behind the head, which no patch sees.
+  const Eigen::MatrixX3f expected = map + lamp(grid, {0, 0, -1}, 10, 0.0F, {0.2F, 0.5F, 1});
+  const Light light = solve(face, {}, expected);
+  const int behind = grid.cell_of({0, 0, -1});
+  EXPECT_TRUE(light.radiance.row(behind).isApprox(expected.row(behind), 0.05F));  // the scale is fitted
+  EXPECT_LT(light.confidence[behind], 0.05F);
+}
+
+TEST(Solve, WhatIsObservedOverrulesWhatIsExpected) {
+  const SphereGrid grid(16);
+  Observations face = ellipsoid_face();
+  const Eigen::Vector3d towards = direction_from_angles(40, 20);
+  light_up(face, grid, lamp(grid, towards, 8, 0.05F));
+  const Eigen::MatrixX3f wrong = lamp(grid, direction_from_angles(-30, 0), 15, 0.3F);
+  SolveOptions options;
+  options.iterations = 200;  // to walk away from the wrong lamp
+  const Light light = solve(face, options, wrong);
+  EXPECT_LT(angle_between_deg(brightest_direction(light.radiance, grid), towards), 10);  // the disc is 16 degrees wide
+}
+
+TEST(Solve, TheScaleOfWhatIsExpectedDoesNotMatter) {
+  const SphereGrid grid(16);
+  Observations face = ellipsoid_face();
+  const Eigen::MatrixX3f map = lamp(grid, {0.4, 0.5, 0.8}, 12, 0.2F);
+  light_up(face, grid, map);
+  const Light once = solve(face, {}, map);
+  const Light more = solve(face, {}, 7 * map);
+  EXPECT_LT((once.radiance - more.radiance).norm() / once.radiance.norm(), 1e-3F);  // float
+  EXPECT_THROW(solve(face, {}, Eigen::MatrixX3f::Ones(5, 3)), std::invalid_argument);
+  EXPECT_THROW(solve(face, {}, -map), std::invalid_argument);
+}
+
 TEST(Solve, ClippedPixelsAreBoundsNotData) {
   const SphereGrid grid(16);
   const Eigen::MatrixX3f map = lamp(grid, {0.2, 0.5, 0.9}, 5, 0.1F);

@@ -147,6 +147,20 @@ TEST(Estimate, TwoFacesAreOrderedAndGetAJointLight) {
 }
 
 // The portrait's red is clipped on nose and cheeks. What lies over it is no cyan light.
+TEST(Estimate, PhotosOfOneLightHaveThatLightWhateverTheirExposures) {
+  const FaceEstimate& face = portrait_estimate().faces[0];
+  const Estimator estimator;
+  FaceEvidence dark = evidence_of(face);
+  dark.observations.highlight *= 0.5F;
+  dark.observations.shading *= 0.5F;
+  dark.energy *= 0.5;
+  const LightResult joint = estimator.joint({evidence_of(face), dark});
+  // The same patches, each half of them from one photo: what is lost is every other one.
+  EXPECT_LT(angle_between_deg(centroid(joint), centroid(face)), 3);
+  EXPECT_LT(moved_energy(face.environment, joint.environment), 1);
+  EXPECT_THROW(estimator.joint({}), std::invalid_argument);
+}
+
 TEST(Estimate, AClippedChannelIsNoHoleInTheHighlight) {
   const FaceEstimate& face = portrait_estimate().faces[0];
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();

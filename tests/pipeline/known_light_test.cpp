@@ -2,8 +2,8 @@
 
 #include "faceprobe/core/angles.h"
 #include "faceprobe/lighting/albedo.h"
-#include "pipeline/light_result.h"
 #include "faceprobe/pipeline/observe.h"
+#include "pipeline/light_result.h"
 #include "pipeline/posed_face.h"
 
 #include <gtest/gtest.h>

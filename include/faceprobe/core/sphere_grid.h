@@ -54,6 +54,8 @@ class SphereGrid {
 
 // #cells x 3 mean radiance of the map over each cell. Keeps the integral of every channel exactly.
 Eigen::MatrixX3f grid_from_env_map(const EnvMap& map, const SphereGrid& grid);
+// The same light on another grid, smooth: each cell the mean of the cells around it, by a Gaussian of half the coarser grid's spacing.
+Eigen::MatrixX3f grid_from_grid(const Eigen::MatrixX3f& cells, const SphereGrid& from, const SphereGrid& to);
 // Smooth lat-long picture of cell values (#cells x 3), interpolated, scaled per channel so that the integral is kept.
 EnvMap env_map_from_grid(const Eigen::MatrixX3f& cells, const SphereGrid& grid, int width, int height);
 

@@ -60,10 +60,13 @@ struct Light {
 
 // Throws std::invalid_argument for observations or options that do not validate. No highlights at all is not an error: the
 // shading alone answers then, and without either the light is black with confidence 0.
-Light solve(const Observations& observations, const SolveOptions& options);
+// `expected`: #cells x 3, >= 0, the light to expect before the pixels are asked, at any scale (net/light_prior.h); empty = one lamp and an even
+// surround that fit the shading. The transport solver starts from it and leaves it where nothing is observed; the paper's does not know it.
+Light solve(const Observations& observations, const SolveOptions& options, const Eigen::MatrixX3f& expected = {});
 
 // The two solvers by themselves; `solve` picks one by options.solver.
-Light solve_transport(const Observations& observations, const SolveOptions& options);
+Light solve_transport(const Observations& observations, const SolveOptions& options,
+                      const Eigen::MatrixX3f& expected = {});
 Light solve_paper(const Observations& observations, const SolveOptions& options);
 
 }  // namespace faceprobe::lighting

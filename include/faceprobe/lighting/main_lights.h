@@ -34,4 +34,9 @@ struct MainLightOptions {
 std::vector<MainLight> main_lights(const Eigen::MatrixX3f& radiance, const SphereGrid& grid,
                                    const MainLightOptions& options = {}, const Eigen::VectorXf& confidence = {});
 
+// The same light without its first `count` main lights (fewer if there are fewer): what is above the surroundings is taken off their cells, which
+// keep their colours. A lamp of a light's irradiance and this map together give the whole light, so that a renderer can have the lamp sharp.
+Eigen::MatrixX3f without_main_lights(const Eigen::MatrixX3f& radiance, const SphereGrid& grid, int count,
+                                     const MainLightOptions& options = {}, const Eigen::VectorXf& confidence = {});
+
 }  // namespace faceprobe::lighting

@@ -43,6 +43,12 @@ enum class ShadingSource {
   kNet,      // the network's shading; what the diffuse layer is beyond it is albedo
 };
 
+// What light the transport solver starts from, and leaves where no skin looks.
+enum class PriorSource {
+  kSmooth,  // a lamp and an even surround that fit the shading
+  kNet,     // what the light prior has learnt to expect, see net/light_prior.h
+};
+
 struct EstimateOptions {
   face::FinderOptions finder;
   // How highlights are taken off: by the trained network (net/face_net.h) where unset, else by a classical separator.
@@ -50,6 +56,8 @@ struct EstimateOptions {
   std::filesystem::path weights;  // of the network, "face" or "unet"; empty = those that come with the program (models/README.md)
   NormalSource normals = NormalSource::kNet;
   ShadingSource shading = ShadingSource::kNet;
+  PriorSource prior = PriorSource::kNet;  // with a classical separator the smooth one, which needs no network
+  std::filesystem::path prior_weights;    // empty = those that come with the program
   // Least share of a face's crop that the photo must show for the network's layers; below, the classical separator and the regions step in,
   // and its normals alone are used. The network learnt from whole heads; of the middle of a face alone it makes shading a highlight.
   double least_shown = 2.0 / 3.0;
@@ -93,6 +101,13 @@ struct FaceEstimate : LightResult {
   lighting::Observations observations;
 };
 
+// What one light for several faces needs of each of them.
+struct FaceEvidence {
+  lighting::Observations observations;
+  double energy = 0;  // luminance of its own light, summed over the sphere's cells
+};
+FaceEvidence evidence_of(const FaceEstimate& face);
+
 struct StageTime {
   std::string stage;
   double seconds = 0;
@@ -125,6 +140,10 @@ class Estimator {
   const EstimateOptions& options() const;
   // Throws Error(kNoFace) when no usable face is found.
   Estimate estimate(const io::Photo& photo) const;
+  // One distant light for faces of one photo, or of several that the same camera took from the same place in the same light, such as a burst:
+  // more patches, each with noise of its own. Every face is first scaled to the mean energy of the single estimates, because photos tell
+  // neither albedos nor exposures. Many faces are thinned to options().max_patches in all. Throws std::invalid_argument for none.
+  LightResult joint(const std::vector<FaceEvidence>& faces) const;
   // The faces alone, left to right; empty when there are none.
   std::vector<face::Face> find_faces(const io::Photo& photo) const;
   // The two layers at the photo's own size: highlight is 0 outside the faces' skin, diffuse is the photo there.

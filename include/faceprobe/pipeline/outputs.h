@@ -2,7 +2,7 @@
 // The folder that `faceprobe estimate` leaves. One face: all files in the folder itself. Several: face_1 .. face_N from left to right
 // with the same files, and joint/ with the maps of all of them; the largest face's maps and overview are also at the top.
 //
-//   environment.exr .hdr .png   confidence.exr   highlight|diffuse|albedo|shading|normals .exr .png   regions.png
+//   environment.exr .hdr .png   confidence.exr   environment_rest.exr light.usda blender.py (scene_files.h)   highlight|diffuse|albedo|shading|normals .exr .png   regions.png
 //   overview.png   report.json (top folder only)
 
 #include "faceprobe/pipeline/estimate.h"
@@ -22,6 +22,8 @@ struct OutputOptions {
 
 // Attributes for files that can carry them (EXR, PNG): version, frame, solver, separator, hash of the photo.
 std::map<std::string, std::string> provenance(const io::Photo& photo, const EstimateOptions& options);
+// The same of a light that is of no one photo.
+std::map<std::string, std::string> provenance(const EstimateOptions& options);
 
 // How the columns of a map are laid out, for people and attributes.
 std::string orientation_name(Orientation orientation);
@@ -30,5 +32,9 @@ std::string orientation_name(Orientation orientation);
 std::vector<std::filesystem::path> write_outputs(const std::filesystem::path& folder, const Estimate& estimate,
                                                  const io::Photo& photo, const EstimateOptions& options,
                                                  const std::string& source, const OutputOptions& output = {});
+
+// The maps and scenes of one light alone, such as the joint light of several photos.
+std::vector<std::filesystem::path> write_light(const std::filesystem::path& folder, const LightResult& light,
+                                               const EstimateOptions& options, const OutputOptions& output = {});
 
 }  // namespace faceprobe::pipeline

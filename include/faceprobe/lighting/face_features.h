@@ -1,0 +1,31 @@
+#pragma once
+// What a face says about its light as one list of numbers of fixed length, whatever the face's size and turn: the input of what is learnt
+// (net/light_prior.h). Shading is gathered by the direction that a patch faces, highlights by the direction that it mirrors, on a coarse grid
+// of the whole sphere in the camera frame; where no patch looks there is nothing, and a number says so.
+//
+//   const Eigen::VectorXf features = lighting::face_features(observations);
+
+#include "faceprobe/lighting/observations.h"
+
+#include <Eigen/Core>
+
+namespace faceprobe::lighting {
+
+inline constexpr int kFeatureNside = 4;                                   // of core/sphere_grid.h
+inline constexpr int kFeatureCells = 12 * kFeatureNside * kFeatureNside;  // 192
+inline constexpr int kFaceFeatures = 2 * kFeatureCells * 4;
+
+// Mean luminance of the shading over patches that are not clipped, by weight: the unit of features and of the light that is learnt. 0 without
+// such patches.
+float shading_level(const Observations& observations);
+
+// kFaceFeatures numbers: for each cell the square roots of red, green and blue of the shading over its level, and how well they are known,
+// 0 to 1; then the same of the highlights. All zero where the level is 0. Throws std::invalid_argument for observations that do not validate.
+Eigen::VectorXf face_features(const Observations& observations);
+
+// The features of the mirror image, left and right changed places.
+Eigen::VectorXf mirrored_features(const Eigen::VectorXf& features);
+// kFeatureCells x anything: the rows of the mirror image.
+Eigen::MatrixXf mirrored_cells(const Eigen::MatrixXf& cells);
+
+}  // namespace faceprobe::lighting

@@ -1,0 +1,114 @@
+#include "faceprobe/lighting/face_features.h"
+
+#include "faceprobe/core/sphere_grid.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+namespace faceprobe::lighting {
+namespace {
+
+constexpr float kWidth = 0.14F;          // radians: half a cell's spacing
+constexpr float kLeastCosine = 0.85F;    // four widths
+constexpr float kEnoughWeight = 0.005F;  // of all patches: at this much a cell is half known
+constexpr float kHighlightScale = 3.0F;  // highlights are weaker than shading; brings both to one size
+
+using Cells = Eigen::Matrix<float, kFeatureCells, 4, Eigen::RowMajor>;
+
+const SphereGrid& feature_grid() {
+  static const SphereGrid grid(kFeatureNside);
+  return grid;
+}
+
+void add(const Eigen::RowVector3f& direction, const Eigen::RowVector3f& value, float weight, Cells& cells) {
+  const Eigen::MatrixX3f& centres = feature_grid().directions();
+  for (int j = 0; j < kFeatureCells; ++j) {
+    const float cosine = centres.row(j).dot(direction);
+    if (cosine < kLeastCosine) continue;
+    const float angle = std::acos(std::min(1.0F, cosine)) / kWidth;
+    const float share = weight * std::exp(-0.5F * angle * angle);
+    cells.row(j).head<3>() += share * value;
+    cells(j, 3) += share;
+  }
+}
+
+void finish(float enough, float scale, Cells& cells) {
+  for (int j = 0; j < kFeatureCells; ++j) {
+    const float known = cells(j, 3) + enough;
+    cells.row(j).head<3>() = (scale / known * cells.row(j).head<3>()).cwiseMax(0.0F).cwiseSqrt();
+    cells(j, 3) /= known;
+  }
+}
+
+const std::array<int, kFeatureCells>& mirror_table() {
+  static const std::array<int, kFeatureCells> table = [] {
+    std::array<int, kFeatureCells> cells{};
+    for (int j = 0; j < kFeatureCells; ++j) {
+      const Eigen::Vector3f centre = feature_grid().direction(j);
+      cells[static_cast<std::size_t>(j)] = feature_grid().cell_of({-centre.x(), centre.y(), centre.z()});
+    }
+    return cells;
+  }();
+  return table;
+}
+
+}  // namespace
+
+float shading_level(const Observations& observations) {
+  double sum = 0;
+  double weight = 0;
+  for (Eigen::Index i = 0; i < observations.count(); ++i) {
+    if (observations.clipped.row(i).any()) continue;
+    const auto w = static_cast<double>(observations.weight[i]);
+    sum += w * static_cast<double>(observations.shading.row(i).dot(Eigen::RowVector3f(0.2126F, 0.7152F, 0.0722F)));
+    weight += w;
+  }
+  return weight > 0 ? static_cast<float>(sum / weight) : 0.0F;
+}
+
+Eigen::VectorXf face_features(const Observations& observations) {
+  if (const std::string fault = observations.validate(); !fault.empty()) throw std::invalid_argument(fault);
+  Eigen::VectorXf features = Eigen::VectorXf::Zero(kFaceFeatures);
+  const float level = shading_level(observations);
+  if (!(level > 0)) return features;
+  Cells shading = Cells::Zero();
+  Cells highlight = Cells::Zero();
+  for (Eigen::Index i = 0; i < observations.count(); ++i) {
+    const Eigen::RowVector3f normal = observations.normal.row(i);
+    const Eigen::RowVector3f view = observations.view.row(i);
+    const float weight = observations.weight[i];
+    if (!observations.clipped.row(i).any()) add(normal, observations.shading.row(i) / level, weight, shading);
+    // A clipped highlight says that it is at least so bright.
+    add(2 * normal.dot(view) * normal - view, observations.highlight.row(i) / level, weight, highlight);
+  }
+  const float enough = kEnoughWeight * observations.weight.sum();
+  finish(enough, 1, shading);
+  finish(enough, kHighlightScale, highlight);
+  constexpr int kHalf = kFaceFeatures / 2;
+  features.head<kHalf>() = Eigen::Map<const Eigen::VectorXf>(shading.data(), kHalf);
+  features.tail<kHalf>() = Eigen::Map<const Eigen::VectorXf>(highlight.data(), kHalf);
+  return features;
+}
+
+Eigen::MatrixXf mirrored_cells(const Eigen::MatrixXf& cells) {
+  if (cells.rows() != kFeatureCells) throw std::invalid_argument("Mirroring needs one row a cell.");
+  Eigen::MatrixXf out(cells.rows(), cells.cols());
+  for (int j = 0; j < kFeatureCells; ++j) out.row(j) = cells.row(mirror_table()[static_cast<std::size_t>(j)]);
+  return out;
+}
+
+Eigen::VectorXf mirrored_features(const Eigen::VectorXf& features) {
+  if (features.size() != kFaceFeatures) throw std::invalid_argument("Mirroring needs all features.");
+  Eigen::VectorXf out(kFaceFeatures);
+  for (int half = 0; half < 2; ++half) {
+    for (int j = 0; j < kFeatureCells; ++j) {
+      const int from = mirror_table()[static_cast<std::size_t>(j)];
+      out.segment<4>(4 * (half * kFeatureCells + j)) = features.segment<4>(4 * (half * kFeatureCells + from));
+    }
+  }
+  return out;
+}
+
+}  // namespace faceprobe::lighting

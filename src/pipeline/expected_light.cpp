@@ -1,0 +1,34 @@
+#include "pipeline/expected_light.h"
+
+#include "faceprobe/core/error.h"
+#include "faceprobe/core/sphere_grid.h"
+#include "faceprobe/io/data_files.h"
+#include "faceprobe/lighting/face_features.h"
+
+namespace faceprobe::pipeline {
+
+std::optional<net::LightPrior> load_prior(const EstimateOptions& options) {
+  const bool wanted =
+      options.prior == PriorSource::kNet && !options.classical && options.solve.solver == lighting::Solver::kTransport;
+  if (!wanted) return std::nullopt;
+  const std::filesystem::path path =
+      options.prior_weights.empty() ? io::data_file("light.safetensors") : options.prior_weights;
+  net::LightPrior prior(path);
+  if (prior.inputs() != lighting::kFaceFeatures) {
+    throw Error(ExitCode::kModel, "The light prior in " + path.string() + " wants " + std::to_string(prior.inputs()) +
+                                      " features; faces have " + std::to_string(lighting::kFaceFeatures) +
+                                      ". Use weights made for this version.");
+  }
+  return prior;
+}
+
+Eigen::MatrixX3f expected_light(const net::LightPrior& prior, const lighting::Observations& observations, int nside) {
+  if (!(lighting::shading_level(observations) > 0)) return {};
+  const Eigen::VectorXf features = lighting::face_features(observations);
+  const Eigen::MatrixX3f light = prior.radiance(features);
+  const Eigen::MatrixX3f other = lighting::mirrored_cells(prior.radiance(lighting::mirrored_features(features)));
+  const Eigen::MatrixX3f mean = light.cwiseProduct(other).cwiseSqrt();
+  return grid_from_grid(mean, SphereGrid(lighting::kFeatureNside), SphereGrid(nside));
+}
+
+}  // namespace faceprobe::pipeline

@@ -1,0 +1,70 @@
+#include "pipeline/read_layers.h"
+
+#include "faceprobe/lighting/albedo.h"
+#include "faceprobe/pipeline/observe.h"
+#include "pipeline/apply_surface.h"
+#include "pipeline/stopwatch.h"
+
+#include <algorithm>
+
+namespace faceprobe::pipeline {
+namespace {
+
+// Shading = diffuse / albedo on the skin. What the eyes and the mouth reflect is not skin shading.
+Image divide(const Image& diffuse, const Image& albedo, const ByteImage& skin) {
+  Image shading(diffuse.width(), diffuse.height(), 3);
+  for (int y = 0; y < diffuse.height(); ++y) {
+    for (int x = 0; x < diffuse.width(); ++x) {
+      if (skin(x, y) == 0) continue;
+      for (int c = 0; c < 3; ++c) shading(x, y, c) = diffuse(x, y, c) / std::max(1e-3F, albedo(x, y, c));
+    }
+  }
+  return shading;
+}
+
+// What turned out to be no skin has no highlights.
+void keep_on_skin(const ByteImage& region, highlight::Layers& layers) {
+  for (std::size_t i = 0; i < region.pixel_count(); ++i) {
+    if (region.data()[i] >= 1 && region.data()[i] <= kSkinRegionCount) continue;
+    for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) {
+      layers.diffuse.data()[c] += layers.highlight.data()[c];
+      layers.highlight.data()[c] = 0;
+    }
+  }
+}
+
+void lap(Stopwatch* watch, const char* stage) {
+  if (watch != nullptr) watch->lap(stage);
+}
+
+}  // namespace
+
+void read_layers(const FaceReader& reader, const EstimateOptions& options, bool grey, bool enough, FaceEstimate& face,
+                 Stopwatch* watch) {
+  Reading reading = reader.read(face.picture, face.clipped, skin_regions(face.geometry.region), face.geometry, enough);
+  face.layers = std::move(reading.layers);
+  if (reading.surface && options.normals == NormalSource::kNet) {
+    apply_normals(*reading.surface, face.geometry);
+    keep_on_skin(face.geometry.region, face.layers);
+  }
+  lap(watch, "highlights and normals");
+
+  const ByteImage skin = skin_regions(face.geometry.region);
+  if (reading.surface && !reading.surface->shading.empty() && options.shading == ShadingSource::kNet) {
+    AlbedoShading split = split_diffuse(*reading.surface, face.layers.diffuse, skin);
+    face.albedo = std::move(split.albedo);
+    face.shading = std::move(split.shading);
+    face.light_colour = split.light_colour;
+  } else {
+    const lighting::AlbedoModel albedo = lighting::fit_albedo(face.layers.diffuse, skin, face.clipped, grey);
+    face.light_colour = albedo.light_colour;
+    face.albedo = lighting::albedo_picture(albedo, skin);
+    face.shading = divide(face.layers.diffuse, face.albedo, skin);
+  }
+  lap(watch, "albedo and shading");
+
+  face.observations =
+      observe(face.geometry, face.layers.highlight, face.shading, face.clipped, options.max_patches, options.threads);
+}
+
+}  // namespace faceprobe::pipeline

@@ -1,0 +1,15 @@
+#pragma once
+// From a face's picture and mesh to its layers and what they say about the light: everything that comes before the solver.
+
+#include "pipeline/face_reader.h"
+
+namespace faceprobe::pipeline {
+
+class Stopwatch;
+
+// Of `face`, geometry (the mesh's), picture and clipped are given; layers, albedo, shading, light colour and observations are found, and the
+// geometry takes the network's normals and regions. `grey`: the photo has no colour. `enough` of the face is shown (face_reader.h).
+void read_layers(const FaceReader& reader, const EstimateOptions& options, bool grey, bool enough, FaceEstimate& face,
+                 Stopwatch* watch = nullptr);
+
+}  // namespace faceprobe::pipeline

@@ -1,0 +1,66 @@
+#include "train/light_loss.h"
+
+#include "faceprobe/core/sphere_grid.h"
+#include "faceprobe/lighting/face_features.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace faceprobe::train {
+namespace {
+
+torch::Tensor lamp(const Eigen::Vector3f& towards, float strength) {
+  torch::Tensor light = torch::full({1, lighting::kFeatureCells, 3}, 0.1F);
+  light[0][SphereGrid(lighting::kFeatureNside).cell_of(towards)] += strength;
+  return light;
+}
+
+TEST(LightLoss, IsNoughtForTheTruth) {
+  const LightLoss loss;
+  const torch::Tensor light = lamp({0.5F, 0.5F, 0.7F}, 20);
+  const LightLoss::Terms terms = loss.terms(light, light);
+  EXPECT_NEAR(terms.diffuse.item<double>(), 1e-3, 1e-6);  // the floor under the root
+  EXPECT_NEAR(terms.glossy.item<double>(), 0, 1e-6);
+}
+
+TEST(LightLoss, GrowsWithTheAngle) {
+  const LightLoss loss;
+  const torch::Tensor truth = lamp({0, 0, 1}, 20);
+  double last = 0;
+  for (const double angle_deg : {40, 65, 90}) {
+    const auto angle = static_cast<float>(angle_deg * 3.14159265 / 180);
+    const LightLoss::Terms terms = loss.terms(lamp({std::sin(angle), 0, std::cos(angle)}, 20), truth);
+    EXPECT_GT(terms.diffuse.item<double>(), last);
+    EXPECT_GT(terms.glossy.item<double>(), 0.1);
+    last = terms.diffuse.item<double>();
+  }
+}
+
+// Light from straight behind falls on nothing that the camera sees; the glossy ball mirrors it at its rim.
+TEST(LightLoss, TheDiffuseBallDoesNotKnowWhatIsStraightBehind) {
+  const LightLoss loss;
+  const LightLoss::Terms terms = loss.terms(lamp({0, 0, -1}, 20), lamp({0, 0, -1}, 0));
+  EXPECT_LT(terms.diffuse.item<double>(), 0.1);  // the cell is 15 degrees wide, and the rim sees its edge
+  EXPECT_GT(terms.glossy.item<double>(), 0.05);
+}
+
+TEST(LightLoss, ItsGradientIsThatOfFiniteDifferences) {
+  const LightLoss loss;
+  torch::manual_seed(2);
+  const torch::Tensor truth = torch::rand({2, lighting::kFeatureCells, 3}) + 0.1;
+  const torch::Tensor light = (torch::rand({2, lighting::kFeatureCells, 3}) + 0.1).set_requires_grad(true);
+  const auto value = [&](const torch::Tensor& x) {
+    const LightLoss::Terms terms = loss.terms(x, truth);
+    return terms.diffuse + terms.glossy;
+  };
+  value(light).backward();
+  const torch::NoGradGuard no_grad;
+  const torch::Tensor step = torch::randn_like(light) * 1e-2;
+  const double slope = (light.grad() * step).sum().item<double>();
+  const double change = (value(light + step) - value(light - step)).item<double>() / 2;
+  EXPECT_NEAR(change, slope, 0.02 * std::abs(slope) + 1e-5);  // single precision, and the curve of the step
+}
+
+}  // namespace
+}  // namespace faceprobe::train
