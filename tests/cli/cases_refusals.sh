@@ -39,6 +39,8 @@ case_bad_options() {
   expect_refused 2 "--threads" estimate "$photo" --threads -1
   expect_refused 2 "pixels" estimate "$photo" --max-pixels 0
   expect_refused 2 "2 photos" estimate "$photo" "$photo" -o light.exr
+  expect_refused 4 "two at least" triangulate "$photo" -o room
+  expect_refused 2 "one photo" triangulate "$photo" "$photo" -o room
   # A device that was named and is not there is another matter than a word that is no device.
   expect_refused 7 "cuda" estimate "$photo" --device cuda
   expect_refused 7 "cuda:1" estimate "$photo" --device cuda:1
