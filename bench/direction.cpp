@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
   std::string set = "all";
   int every = 3;
   std::string weights;
+  std::string prior;
   faceprobe::pipeline::EstimateOptions base;
   app.add_option("--data", data, "data folder (docs/data.md)")->required();
   app.add_option("--every", every, "use every n-th flash picture and every n-th person only")
@@ -26,12 +27,14 @@ int main(int argc, char** argv) {
       ->capture_default_str()
       ->check(CLI::IsMember({"yale", "london", "all"}));
   app.add_option("--weights", weights, "weights of the network in place of those that come with the program");
+  app.add_option("--prior-weights", prior, "weights of the light prior, likewise");
   app.add_option("--highlight-weight", base.solve.highlight_weight, "of the transport solver")->capture_default_str();
   app.add_option("--least-shown", base.least_shown, "share of a face below which no network is asked")
       ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   try {
     base.weights = weights;
+    base.prior_weights = prior;
     const std::filesystem::path real = std::filesystem::path(data) / "real";
     for (const char* folder : {"yaleB", "portraits/london"}) {
       const bool yale = folder == std::string("yaleB");

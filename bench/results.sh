@@ -80,7 +80,7 @@ command_of() {
     geometry | shading) echo "BUILD/bin/faceprobe eval $1 --data FACES --weights net=models/face.safetensors --samples 200" ;;
     relight)
       echo "BUILD/bin/faceprobe eval relight --data LIGHT --object DIR/objects/stanford-bunny.obj --scenes DIR/hdri/dev.csv" \
-        "--training TRAINING --ablation --samples 100" ;;
+        "--training TRAINING --ablation --samples 50" ;;
     highlight_makehuman) echo "bench/makehuman.sh --data DIR" ;;
     highlight_people) echo "bench/people.sh --data DIR --faces FACES --training TRAINING" ;;
     speed) echo "bench/speed.sh" ;;
@@ -99,7 +99,7 @@ run_section() {
       "$build/bin/faceprobe" eval "$1" --data "$faces" --weights net="$root/models/face.safetensors" --samples 200 ;;
     relight)
       "$build/bin/faceprobe" eval relight --data "$light" --object "$data/objects/stanford-bunny.obj" --scenes "$data/hdri/dev.csv" \
-        --training "$training" --ablation --samples 100 ;;
+        --training "$training" --ablation --samples 50 ;;
     highlight_makehuman) "$root/bench/makehuman.sh" --data "$data" "$build" ;;
     highlight_people) "$root/bench/people.sh" --data "$data" --faces "$faces" --training "$training" "$build" ;;
     speed) "$root/bench/speed.sh" ;;

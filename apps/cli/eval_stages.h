@@ -29,6 +29,7 @@ int eval_highlight(const EvalOptions& options);
 int eval_geometry(const EvalOptions& options);
 int eval_shading(const EvalOptions& options);
 int eval_relight(const EvalOptions& options);
+int eval_triangulate(const EvalOptions& options);
 
 // NAME=FILE as that pair; of FILE alone its stem is the name.
 std::pair<std::string, std::string> name_and_file(const std::string& named);

@@ -22,6 +22,7 @@ class Shared {
   explicit Shared(EstimateOptions options) : estimator_(std::move(options)) {}
 
   const EstimateOptions& options() const { return estimator_.options(); }
+  lighting::Light light_of(const lighting::Observations& o) const { return estimator_.light_of(o); }
   // Nothing where no face is found.
   const FaceEstimate* of(const eval::LightInput& input) {
     if (known_ != input.number) {
@@ -51,6 +52,7 @@ EstimateOptions estimate_options(const RelightRows& rows) {
   options.prior_weights = rows.prior;
   options.finder.min_face_px = kLeastFacePx;
   options.solve.nside = rows.nside;
+  options.solve.threads = rows.threads;
   options.threads = rows.threads;
   return options;
 }
@@ -117,7 +119,8 @@ face::FaceGeometry true_geometry(const eval::LightInput& input) {
 
 // Everything known but the light: what is left is what a face can tell.
 eval::LightMethod all_known(const EstimateOptions& options) {
-  return {"all layers and normals known", [options](const eval::LightInput& input) -> Eigen::MatrixX3f {
+  return {"all layers and normals known, without the prior",
+          [options](const eval::LightInput& input) -> Eigen::MatrixX3f {
             const face::FaceGeometry geometry = true_geometry(input);
             const ByteImage no_flags(geometry.region.width(), geometry.region.height(), 1);
             const lighting::Observations o = pipeline::observe(geometry, input.sample.highlight, input.sample.shading,
@@ -148,9 +151,9 @@ eval::LightMethod partly_known(const std::string& name, const SharedPtr& shared,
             const Image shading = layers ? face::crop_picture(input.sample.shading, geometry.crop) : face->shading;
             const ByteImage flags = layers ? ByteImage(geometry.crop.width, geometry.crop.height, 1) : face->clipped;
             const EstimateOptions& options = shared->options();
-            const lighting::Observations o =
-                pipeline::observe(geometry, highlight, shading, flags, options.max_patches, options.threads);
-            return lighting::solve(o, options.solve).radiance;
+            return shared
+                ->light_of(pipeline::observe(geometry, highlight, shading, flags, options.max_patches, options.threads))
+                .radiance;
           }};
 }
 

@@ -2,6 +2,7 @@
 
 #include "faceprobe/core/error.h"
 
+#include <algorithm>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -52,6 +53,8 @@ std::function<std::string(int map)> scene_of_maps(const std::filesystem::path& t
   const nlohmann::json json = nlohmann::json::parse(recipe, nullptr, false);
   if (json.is_object() && json.contains("maps")) {
     for (const auto& map : json["maps"]) {
+      if (!map.is_string())
+        throw Error(ExitCode::kInput, "The data's recipe names a map that is no text. Make the data again.");
       const auto found = scene.find(map.get<std::string>());
       of_map.push_back(found == scene.end() ? "unknown" : found->second);
     }

@@ -153,8 +153,9 @@ std::string folder_for(const std::string& output, const SharedOptions& options, 
     const std::string stem = std::filesystem::path(options.inputs[i]).stem().string();
     return stem == "." || stem == ".." ? "photo" : stem;  // of "..jpg" and "...jpg", which would lead out of the folder
   };
-  // Where another photo has the name, the input's number goes behind it, until no photo has it.
+  // Where another photo has the name, the input's number goes behind it, until no photo has it. "joint" is for the light of all of them.
   const auto taken = [&](const std::string& name) {
+    if (name == "joint") return true;
     for (std::size_t other = 0; other < options.inputs.size(); ++other) {
       if (other != input && stem_of(other) == name) return true;
     }

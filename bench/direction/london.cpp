@@ -116,15 +116,16 @@ std::vector<Setting> settings(const pipeline::EstimateOptions& base) {
           {std::string(lighting::solver_name(solver)) + ", " + options.separator_name(), pipeline::Estimator(options)});
     }
   }
-  // What the network's normals and shading are worth, one by one.
+  // What the prior is worth, and without it the network's normals and shading, one by one.
   for (const NormalSource normals : {NormalSource::kMesh, NormalSource::kNet}) {
     for (const ShadingSource shading : {ShadingSource::kRegions, ShadingSource::kNet}) {
-      if (normals == NormalSource::kNet && shading == ShadingSource::kNet) continue;  // the first row
       pipeline::EstimateOptions options = base;
       options.normals = normals;
       options.shading = shading;
-      all.push_back({std::string("transport, net, normals of the ") + (normals == NormalSource::kNet ? "net" : "mesh") +
-                         ", shading by " + (shading == ShadingSource::kNet ? "net" : "region"),
+      options.prior = pipeline::PriorSource::kSmooth;
+      all.push_back({std::string("transport, net, without the prior, normals of the ") +
+                         (normals == NormalSource::kNet ? "net" : "mesh") + ", shading by " +
+                         (shading == ShadingSource::kNet ? "net" : "region"),
                      pipeline::Estimator(options)});
     }
   }

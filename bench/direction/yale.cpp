@@ -106,6 +106,7 @@ struct Setting {
   std::optional<highlight::Separator> classical;
   bool linear;
   std::string name;
+  pipeline::PriorSource prior = pipeline::PriorSource::kNet;
 };
 
 }  // namespace
@@ -119,11 +120,14 @@ void report_yale(const std::filesystem::path& folder, int every, const pipeline:
   for (const Setting& setting :
        {Setting{lighting::Solver::kTransport, {}, true, "transport, net"},
         Setting{lighting::Solver::kTransport, highlight::Separator::kYang, true, "transport, classical"},
+        Setting{
+            lighting::Solver::kTransport, {}, true, "transport, net, without the prior", pipeline::PriorSource::kSmooth},
         Setting{lighting::Solver::kPaper, {}, true, "paper, net"},
         Setting{lighting::Solver::kTransport, {}, false, "transport, net, codes taken for sRGB"}}) {
     pipeline::EstimateOptions options = base;
     options.solve.solver = setting.solver;
     options.classical = setting.classical;
+    options.prior = setting.prior;
     options.landmarks_px = fixed_landmarks();
     const pipeline::Estimator estimator(options);
     Row lamp{"single lamp by least squares" + std::string(setting.linear ? "" : ", codes taken for sRGB"), {}, {}};

@@ -110,7 +110,8 @@ MapError map_error(const Eigen::MatrixX3f& truth, const Eigen::MatrixX3f& estima
   const Eigen::VectorXd found = with_mean_one(estimate);
   const double error = std::sqrt((found - right).squaredNorm() / static_cast<double>(right.size()));
   const auto range = [](const Eigen::VectorXd& v) { return v.maxCoeff() - v.minCoeff(); };
-  return {error / range(found), error / range(right)};
+  const auto over = [error](double span) { return span > 0 ? error / span : kNaN; };
+  return {over(range(found)), over(range(right))};
 }
 
 bool has_dominant_light(const Eigen::MatrixX3f& truth, const SphereGrid& grid) {

@@ -35,6 +35,13 @@ double angular_variance(const Ray& ray, double distance_m, const TriangulateOpti
   return own * own + of_place * of_place;
 }
 
+// What a larger variance costs: twice the logarithm of its normal distribution's spread over that of a distant lamp, which does not depend on the
+// faces' places. Without it a near lamp would always explain more.
+double spread_cost(double variance, const TriangulateOptions& options) {
+  const double own = radians(options.direction_error_deg);
+  return 2 * std::log(variance / (own * own));
+}
+
 // A face whose skin is lit by a lamp at d has irradiance I / d^2: the logarithms plus 2 log d should agree.
 double strength_cost(const std::vector<Ray>& rays, const Eigen::VectorXd& log_distance, double error) {
   double mean = 0;
@@ -53,27 +60,29 @@ double squared_angle(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return angle * angle;
 }
 
-double near_cost(const std::vector<Ray>& rays, const Eigen::Vector3d& position, const TriangulateOptions& options) {
+// `variance`: of each ray's direction. It is held while the lamp moves, or the lamp would be drawn to where its misses count less.
+double near_cost(const std::vector<Ray>& rays, const std::vector<double>& variance, const Eigen::Vector3d& position,
+                 const TriangulateOptions& options) {
   double cost = 0;
   Eigen::VectorXd log_distance(static_cast<Eigen::Index>(rays.size()));
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const Eigen::Vector3d offset = position - rays[i].from;
     const double distance = std::max(kLeastDistance_m, offset.norm());
     log_distance[static_cast<Eigen::Index>(i)] = std::log(distance);
-    cost += squared_angle(offset, rays[i].towards) / angular_variance(rays[i], distance, options);
+    cost += squared_angle(offset, rays[i].towards) / variance[i] + spread_cost(variance[i], options);
   }
   return cost + strength_cost(rays, log_distance, options.log_strength_error);
 }
 
 // Second derivatives of half the cost by differences: it is a function of three numbers.
-Eigen::Matrix3d curvature(const std::vector<Ray>& rays, const Eigen::Vector3d& at, double step,
-                          const TriangulateOptions& options) {
+Eigen::Matrix3d curvature(const std::vector<Ray>& rays, const std::vector<double>& variance, const Eigen::Vector3d& at,
+                          double step, const TriangulateOptions& options) {
   Eigen::Matrix3d out;
   const auto cost = [&](double a, double b, int i, int j) {
     Eigen::Vector3d moved = at;
     moved[i] += a * step;
     moved[j] += b * step;
-    return 0.5 * near_cost(rays, moved, options);
+    return 0.5 * near_cost(rays, variance, moved, options);
   };
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
@@ -85,12 +94,13 @@ Eigen::Matrix3d curvature(const std::vector<Ray>& rays, const Eigen::Vector3d& a
   return out;
 }
 
-Eigen::Vector3d slope(const std::vector<Ray>& rays, const Eigen::Vector3d& at, double step,
-                      const TriangulateOptions& options) {
+Eigen::Vector3d slope(const std::vector<Ray>& rays, const std::vector<double>& variance, const Eigen::Vector3d& at,
+                      double step, const TriangulateOptions& options) {
   Eigen::Vector3d out;
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d move = step * Eigen::Vector3d::Unit(i);
-    out[i] = 0.5 * (near_cost(rays, at + move, options) - near_cost(rays, at - move, options)) / (2 * step);
+    out[i] = 0.5 * (near_cost(rays, variance, at + move, options) - near_cost(rays, variance, at - move, options)) /
+             (2 * step);
   }
   return out;
 }
@@ -128,15 +138,20 @@ LampFit fit_near_lamp(const std::vector<FaceLights>& faces, const std::vector<Si
   LampFit fit;
   fit.near = true;
   fit.position_m = nearest_to_rays(rays, options);
-  fit.cost = near_cost(rays, fit.position_m, options);
+  std::vector<double> variance;
+  for (const Ray& ray : rays) {
+    const double distance = std::max(kLeastDistance_m, (fit.position_m - ray.from).norm());
+    variance.push_back(angular_variance(ray, distance, options));
+  }
+  fit.cost = near_cost(rays, variance, fit.position_m, options);
   // Levenberg and Marquardt's way between Newton's step and the slope's.
   double damping = 1e-2;
   for (int step = 0; step < kMostSteps; ++step) {
-    Eigen::Matrix3d matrix = curvature(rays, fit.position_m, kStep_m, options);
+    Eigen::Matrix3d matrix = curvature(rays, variance, fit.position_m, kStep_m, options);
     const double size = std::max(1e-9, matrix.diagonal().cwiseAbs().maxCoeff());
     matrix.diagonal().array() += damping * size;
-    const Eigen::Vector3d move = -matrix.ldlt().solve(slope(rays, fit.position_m, kStep_m, options));
-    const double cost = near_cost(rays, fit.position_m + move, options);
+    const Eigen::Vector3d move = -matrix.ldlt().solve(slope(rays, variance, fit.position_m, kStep_m, options));
+    const double cost = near_cost(rays, variance, fit.position_m + move, options);
     if (move.allFinite() && cost < fit.cost) {
       const double gain = fit.cost - cost;
       fit.position_m += move;
@@ -148,7 +163,7 @@ LampFit fit_near_lamp(const std::vector<FaceLights>& faces, const std::vector<Si
       if (damping > 1e9) break;
     }
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(curvature(rays, fit.position_m, kStep_m, options));
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(curvature(rays, variance, fit.position_m, kStep_m, options));
   // A direction in which the cost does not rise is not known: as uncertain as the room is large.
   const Eigen::Vector3d variance = axes.eigenvalues().cwiseMax(1 / (options.most_m * options.most_m)).cwiseInverse();
   fit.covariance_m2 = axes.eigenvectors() * variance.asDiagonal() * axes.eigenvectors().transpose();

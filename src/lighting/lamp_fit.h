@@ -10,7 +10,8 @@ struct LampFit {
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  // of a near one
   Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  // of a distant one
   Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();
-  double cost = 0;  // sum of squared deviations: of directions, and of strengths from their mean
+  double cost =
+      0;  // twice the negative logarithm of the likelihood, up to a constant: of directions, and of strengths about their mean
 
   // Unit vector towards the lamp.
   Eigen::Vector3d seen_from(const Eigen::Vector3d& place_m) const {

@@ -103,8 +103,11 @@ FoundLight gather(int peak, const std::vector<int>& peaks, const Eigen::MatrixX3
     const Eigen::Vector3f d = grid.direction(j);
     const float to_peak = d.dot(grid.direction(peak));
     if (to_peak < least_cosine || level[j] <= ambient) continue;
-    const bool nearest =
-        std::all_of(peaks.begin(), peaks.end(), [&](int other) { return d.dot(grid.direction(other)) <= to_peak; });
+    // Between two equally near the one with the smaller number has it.
+    const bool nearest = std::all_of(peaks.begin(), peaks.end(), [&](int other) {
+      const float to_other = d.dot(grid.direction(other));
+      return to_other < to_peak || (to_other == to_peak && other >= peak);
+    });
     if (!nearest) continue;
     found.cells.push_back(j);
     const double above = (level[j] - ambient) * grid.cell_solid_angle();

@@ -133,11 +133,11 @@ Eigen::MatrixX3f coloured(const Rows& rows, const Eigen::VectorXf& level, const 
   return radiance;
 }
 
-// How well each cell is observed, and the median of those that are observed well.
-void rate(const Eigen::VectorXf& sensitivity, Light& light) {
+// How well each cell is observed, and the median of those that are observed well. False when nothing is.
+bool rate(const Eigen::VectorXf& sensitivity, Light& light) {
   // Relative to a typical observed cell: the largest sensitivities belong to grazing mirror angles and say little of the rest.
   const float least = 1e-3F * sensitivity.maxCoeff();
-  if (!(least > 0)) return;  // the face's own horizon blocks everything
+  if (!(least > 0)) return false;  // the face's own horizon blocks everything
   std::vector<float> reached;
   std::copy_if(sensitivity.begin(), sensitivity.end(), std::back_inserter(reached),
                [least](float s) { return s > least; });
@@ -149,6 +149,7 @@ void rate(const Eigen::VectorXf& sensitivity, Light& light) {
     }
     light.ambient[channel] = quantile(observed, 0.5);
   }
+  return true;
 }
 
 // Cells that hardly anything observes take the ambient level.
@@ -167,7 +168,7 @@ Eigen::VectorXf expected_start(const Eigen::MatrixX3f& expected, const Transport
   const Eigen::VectorXf luminance = expected * kLuminance;
   const float predicted = weighted_sum(o.weight, transport.diffuse * luminance);
   const float found = weighted_sum(o.weight, o.shading * kLuminance);
-  return (luminance * (predicted > 0 ? found / predicted : 0.0F)).cwiseMax(kDarkest * level);
+  return (luminance * (predicted > 0 ? found / predicted : 1.0F)).cwiseMax(kDarkest * level);
 }
 
 Eigen::MatrixX3f colours_of(const Eigen::MatrixX3f& light) {
@@ -188,7 +189,7 @@ Light solve_transport(const Observations& observations, const SolveOptions& opti
   light.radiance.setZero(grid.cell_count(), 3);
   light.confidence.setZero(grid.cell_count());
   light.ambient.setZero();
-  const bool has_expected = expected.rows() > 0;
+  bool has_expected = expected.rows() > 0;
   if (has_expected && (expected.rows() != grid.cell_count() || !(expected.minCoeff() >= 0) || !expected.allFinite()))
     throw std::invalid_argument("The expected light must have one radiance per cell, not negative.");
   if (observations.count() == 0) return light;
@@ -209,6 +210,7 @@ Light solve_transport(const Observations& observations, const SolveOptions& opti
     const float per_unit = weighted_sum(patches.weight, transport.highlight.rowwise().sum());
     level = per_unit > 0 ? weighted_sum(patches.weight, patches.highlight * kLuminance) / per_unit : 0;
     start.setConstant(level);
+    has_expected = false;  // without shading there is no scale to bring it to
   }
   if (!(level > 0)) return light;
 
@@ -219,8 +221,7 @@ Light solve_transport(const Observations& observations, const SolveOptions& opti
                                                       rl_options(options, options.iterations));
   light.radiance =
       coloured(rows, solved.estimate.col(0), has_expected ? colours_of(expected) : Eigen::MatrixX3f(), options);
-  rate(solved.sensitivity, light);
-  if (!has_expected) fill_unobserved(light);
+  if (rate(solved.sensitivity, light) && !has_expected) fill_unobserved(light);
   return light;
 }
 

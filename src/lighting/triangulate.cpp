@@ -124,6 +124,31 @@ Lamp lamp_of(const std::vector<FaceLights>& faces, const Candidate& candidate) {
   return lamp;
 }
 
+struct Pair {
+  Sighting a, b;
+  std::optional<Candidate> candidate;
+};
+
+std::vector<Pair> all_pairs(const std::vector<FaceLights>& faces, const TriangulateOptions& options) {
+  std::vector<Pair> pairs;
+  for (int f = 0; f < static_cast<int>(faces.size()); ++f) {
+    for (int g = f + 1; g < static_cast<int>(faces.size()); ++g) {
+      for (int i = 0; i < static_cast<int>(faces[static_cast<std::size_t>(f)].lights.size()); ++i) {
+        for (int j = 0; j < static_cast<int>(faces[static_cast<std::size_t>(g)].lights.size()); ++j) {
+          const Sighting a{f, i};
+          const Sighting b{g, j};
+          pairs.push_back({a, b, candidate_of(faces, a, b, {}, options)});
+        }
+      }
+    }
+  }
+  return pairs;
+}
+
+bool taken(const std::vector<Sighting>& seen, const Used& used) {
+  return std::ranges::any_of(seen, [&](const Sighting& s) { return used.contains({s.face, s.light}); });
+}
+
 }  // namespace
 
 std::string TriangulateOptions::validate() const {
@@ -140,20 +165,17 @@ std::vector<Lamp> triangulate(const std::vector<FaceLights>& faces, const Triang
   if (const std::string fault = options.validate(); !fault.empty()) throw std::invalid_argument(fault);
   std::vector<Lamp> lamps;
   Used used;
+  std::vector<Pair> pairs = all_pairs(faces, options);
   while (true) {
-    std::optional<Candidate> best;
-    for (int f = 0; f < static_cast<int>(faces.size()); ++f) {
-      for (int g = f + 1; g < static_cast<int>(faces.size()); ++g) {
-        for (int i = 0; i < static_cast<int>(faces[static_cast<std::size_t>(f)].lights.size()); ++i) {
-          for (int j = 0; j < static_cast<int>(faces[static_cast<std::size_t>(g)].lights.size()); ++j) {
-            if (used.contains({f, i}) || used.contains({g, j})) continue;
-            const std::optional<Candidate> candidate = candidate_of(faces, {f, i}, {g, j}, used, options);
-            if (candidate && (!best || better(*candidate, *best))) best = candidate;
-          }
-        }
-      }
+    const Candidate* best = nullptr;
+    for (Pair& pair : pairs) {
+      if (used.contains({pair.a.face, pair.a.light}) || used.contains({pair.b.face, pair.b.light})) continue;
+      // What another lamp has taken since cannot vote for this one any more.
+      if (pair.candidate && taken(pair.candidate->seen, used))
+        pair.candidate = candidate_of(faces, pair.a, pair.b, used, options);
+      if (pair.candidate && (best == nullptr || better(*pair.candidate, *best))) best = &*pair.candidate;
     }
-    if (!best) break;
+    if (best == nullptr) break;
     for (const Sighting& s : best->seen) used.insert({s.face, s.light});
     lamps.push_back(lamp_of(faces, *best));
   }

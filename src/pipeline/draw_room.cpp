@@ -25,11 +25,11 @@ constexpr double kRay_m = 1.2;
 // A view along an axis: two coordinates of the room across and up the picture.
 struct View {
   int across, up;
-  double up_sign;
+  double across_sign, up_sign;
   const char* title;
   int left_px;
 
-  Eigen::Vector2d flat(const Eigen::Vector3d& p) const { return {p[across], up_sign * p[up]}; }
+  Eigen::Vector2d flat(const Eigen::Vector3d& p) const { return {across_sign * p[across], up_sign * p[up]}; }
 };
 
 struct Frame {
@@ -49,7 +49,7 @@ struct Frame {
 void draw_ellipse(ByteImage& canvas, const View& view, const Frame& frame, const lighting::Lamp& lamp,
                   const Colour& colour) {
   Eigen::Matrix<double, 2, 3> flat = Eigen::Matrix<double, 2, 3>::Zero();
-  flat(0, view.across) = 1;
+  flat(0, view.across) = view.across_sign;
   flat(1, view.up) = view.up_sign;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(flat * lamp.covariance_m2 * flat.transpose());
   constexpr int kPieces = 48;
@@ -110,8 +110,8 @@ ByteImage draw_room(const Room& room) {
   ByteImage canvas(2 * kSide, kSide, 3);
   fill(canvas, 0, 0, 2 * kSide, kSide, kPaper);
   // Away from the camera is up when seen from above, and to the right when seen from the side.
-  draw_view(canvas, {0, 2, -1, "from above", 0}, room);
-  draw_view(canvas, {2, 1, 1, "from the right", kSide}, room);
+  draw_view(canvas, {0, 2, 1, -1, "from above", 0}, room);
+  draw_view(canvas, {2, 1, -1, 1, "from the right", kSide}, room);
   return canvas;
 }
 

@@ -46,15 +46,19 @@ FaceEstimate Estimator::Impl::analyse(const io::Photo& photo, const face::Camera
   out.clipped = face::crop_flags(photo.clipped, crop);
   watch.lap("geometry");
 
-  const bool enough = shown_share(crop, photo.linear.width(), photo.linear.height()) >= options.least_shown;
-  read_layers(reader, options, photo.grey, enough, out, &watch);
-  const Eigen::MatrixX3f expected =
-      prior ? expected_light(*prior, out.observations, options.solve.nside) : Eigen::MatrixX3f();
-  lighting::Light light = lighting::solve(out.observations, options.solve, expected);
+  out.enough_shown = shown_share(crop, photo.linear.width(), photo.linear.height()) >= options.least_shown;
+  read_layers(reader, options, photo.grey, out.enough_shown, out, &watch);
+  lighting::Light light = light_of(out.observations, out.enough_shown);
   watch.lap("light");
   static_cast<LightResult&>(out) = light_result(std::move(light), options);
   watch.lap("maps and main lights");
   return out;
+}
+
+lighting::Light Estimator::Impl::light_of(const lighting::Observations& observations, bool ask_prior) const {
+  const Eigen::MatrixX3f expected =
+      prior && ask_prior ? expected_light(*prior, observations, options.solve.nside) : Eigen::MatrixX3f();
+  return lighting::solve(observations, options.solve, expected);
 }
 
 Estimator::Estimator(EstimateOptions options) : impl_(std::make_unique<Impl>(std::move(options))) {}
@@ -68,10 +72,14 @@ std::vector<face::Face> Estimator::find_faces(const io::Photo& photo) const {
   return impl_->faces_of(photo, camera_of(photo, impl_->options).camera);
 }
 
+lighting::Light Estimator::light_of(const lighting::Observations& observations, bool ask_prior) const {
+  return impl_->light_of(observations, ask_prior);
+}
+
 LightResult Estimator::joint(const std::vector<FaceEvidence>& faces) const {
   if (faces.empty()) throw std::invalid_argument("A joint light needs a face.");
-  const net::LightPrior* prior = impl_->prior ? &*impl_->prior : nullptr;
-  return light_result(joint_light(faces, impl_->options, prior), impl_->options);
+  const bool all_shown = std::ranges::all_of(faces, [](const FaceEvidence& face) { return face.enough_shown; });
+  return light_result(impl_->light_of(joint_observations(faces), all_shown), impl_->options);
 }
 
 Estimate Estimator::estimate(const io::Photo& photo) const {
@@ -88,8 +96,7 @@ Estimate Estimator::estimate(const io::Photo& photo) const {
   if (found.empty()) throw no_face(photo, impl_->options);
   for (face::Face& face : found) {
     FaceEstimate estimate = impl_->analyse(photo, out.camera, std::move(face), watch);
-    const double shown = shown_share(estimate.geometry.crop, photo.linear.width(), photo.linear.height());
-    if (!impl_->options.classical && shown < impl_->options.least_shown) {
+    if (!impl_->options.classical && !estimate.enough_shown) {
       out.warnings.emplace_back(
           "The photo cuts off more than a third of a face; its highlights come from a classical separator, because the "
           "network needs more of a head.");

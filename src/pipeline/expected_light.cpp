@@ -8,9 +8,7 @@
 namespace faceprobe::pipeline {
 
 std::optional<net::LightPrior> load_prior(const EstimateOptions& options) {
-  const bool wanted =
-      options.prior == PriorSource::kNet && !options.classical && options.solve.solver == lighting::Solver::kTransport;
-  if (!wanted) return std::nullopt;
+  if (!options.asks_prior()) return std::nullopt;
   const std::filesystem::path path =
       options.prior_weights.empty() ? io::data_file("light.safetensors") : options.prior_weights;
   net::LightPrior prior(path);

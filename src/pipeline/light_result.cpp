@@ -1,7 +1,6 @@
 #include "pipeline/light_result.h"
 
 #include "faceprobe/core/sh.h"
-#include "pipeline/expected_light.h"
 
 #include <cmath>
 
@@ -43,10 +42,11 @@ LightResult light_result(lighting::Light light, const EstimateOptions& options) 
   return result;
 }
 
-FaceEvidence evidence_of(const FaceEstimate& face) { return {face.observations, energy(face.light)}; }
+FaceEvidence evidence_of(const FaceEstimate& face) {
+  return {face.observations, energy(face.light), face.enough_shown};
+}
 
-lighting::Light joint_light(const std::vector<FaceEvidence>& faces, const EstimateOptions& options,
-                            const net::LightPrior* prior) {
+lighting::Observations joint_observations(const std::vector<FaceEvidence>& faces) {
   double log_mean = 0;
   int lit = 0;
   for (const FaceEvidence& face : faces) {
@@ -67,10 +67,7 @@ lighting::Light joint_light(const std::vector<FaceEvidence>& faces, const Estima
     set.shading *= gain;
     sets.push_back(std::move(set));
   }
-  const lighting::Observations all = lighting::concatenate(sets);
-  const Eigen::MatrixX3f expected =
-      prior != nullptr ? expected_light(*prior, all, options.solve.nside) : Eigen::MatrixX3f();
-  return lighting::solve(all, options.solve, expected);
+  return lighting::concatenate(sets);
 }
 
 }  // namespace faceprobe::pipeline

@@ -1,15 +1,13 @@
 #pragma once
 // A solved light in its other forms.
 
-#include "faceprobe/net/light_prior.h"
 #include "faceprobe/pipeline/estimate.h"
 
 namespace faceprobe::pipeline {
 
 LightResult light_result(lighting::Light light, const EstimateOptions& options);
 
-// As Estimator::joint has it. `prior`: or none.
-lighting::Light joint_light(const std::vector<FaceEvidence>& faces, const EstimateOptions& options,
-                            const net::LightPrior* prior);
+// What several faces say together: each scaled to the mean energy of their own lights, thinned to the patches of one.
+lighting::Observations joint_observations(const std::vector<FaceEvidence>& faces);
 
 }  // namespace faceprobe::pipeline

@@ -44,6 +44,10 @@ std::string EstimateOptions::validate() const {
   return {};
 }
 
+bool EstimateOptions::asks_prior() const {
+  return prior == PriorSource::kNet && !classical && solve.solver == lighting::Solver::kTransport;
+}
+
 std::string EstimateOptions::separator_name() const {
   return classical ? std::string(highlight::separator_name(*classical)) : "net";
 }

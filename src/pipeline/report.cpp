@@ -105,7 +105,7 @@ std::string report_json(const Estimate& estimate, const io::Photo& photo, const 
                        {"geometry", options.normals == NormalSource::kNet && !options.classical ? "net" : "mesh"},
                        {"shading", options.shading == ShadingSource::kNet && !options.classical ? "net" : "regions"},
                        {"solver", lighting::solver_name(options.solve.solver)},
-                       {"prior", options.prior == PriorSource::kNet && !options.classical ? "net" : "smooth"},
+                       {"prior", options.asks_prior() ? "net" : "smooth"},
                        {"iterations", options.solve.iterations},
                        {"nside", options.solve.nside},
                        {"map_size_px", {options.map_width, options.map_width / 2}},

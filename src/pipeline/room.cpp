@@ -36,7 +36,8 @@ Json lamp_json(const lighting::Lamp& lamp) {
   }
   json["miss_deg"] = lamp.miss_deg;
   json["seen_by"] = Json::array();
-  for (const lighting::Sighting& s : lamp.seen) json["seen_by"].push_back({{"face", s.face}, {"light", s.light}});
+  for (const lighting::Sighting& s : lamp.seen)
+    json["seen_by"].push_back({{"face", s.face + 1}, {"light", s.light + 1}});
   return json;
 }
 
@@ -74,6 +75,7 @@ std::string room_json(const Room& room, const std::string& source) {
   json["program"] = {{"name", "faceprobe"}, {"version", kVersion}};
   json["photo"] = source;
   json["frame"] = "camera: +x right in the photo, +y up, +z towards the viewer; metres; directions towards the light";
+  json["numbers"] = "faces count from 1, left to right; a face's lights from 1, strongest first";
   json["faces"] = Json::array();
   for (const lighting::FaceLights& face : room.faces) {
     Json lights = Json::array();

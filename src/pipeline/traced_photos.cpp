@@ -73,6 +73,7 @@ std::optional<synth::TracedPhoto> trace_photo(const synth::ShardReader& faces, i
   const std::optional<Window> window = crop_of(mesh.region);
   if (!window) return std::nullopt;
   const synth::Sample sample = faces.copy_sample(number);
+  if (!sample.lamps.empty()) return std::nullopt;  // a group's room: no one map lights it
   FaceEstimate face = face_of(sample, faces.copy_view(number), mesh, *window);
   read_layers(reader, options, false, true, face);
   const float level = lighting::shading_level(face.observations);

@@ -8,6 +8,19 @@
 namespace faceprobe::train {
 namespace {
 
+Image nearest(const Image& picture, const Window& window) {
+  Image part(window.width, window.height, picture.channels());
+  for (int y = 0; y < window.height; ++y) {
+    for (int x = 0; x < window.width; ++x) {
+      const auto from_x = static_cast<int>(std::floor(window.left_px + (x + 0.5) / window.scale));
+      const auto from_y = static_cast<int>(std::floor(window.top_px + (y + 0.5) / window.scale));
+      if (from_x < 0 || from_y < 0 || from_x >= picture.width() || from_y >= picture.height()) continue;
+      std::copy_n(picture.pixel(from_x, from_y), picture.channels(), part.pixel(x, y));
+    }
+  }
+  return part;
+}
+
 void put_outside(TrainingPicture& picture, int x, int y) {
   std::fill_n(picture.linear.pixel(x, y), 3, 0.0F);
   std::fill_n(picture.highlight.pixel(x, y), 3, 0.0F);
@@ -36,8 +49,9 @@ TrainingPicture seen_through(const Window& window, const TrainingPicture& pictur
   if (picture.has_surface()) {
     out.mesh = resampled(picture.mesh, window);
     out.normal = resampled(picture.normal, window);
-    out.depth_m = resampled(picture.depth_m, window);
-    out.shading = resampled(picture.shading, window);
+    // Between a face and what is not known about its surroundings there is nothing to interpolate.
+    out.depth_m = nearest(picture.depth_m, window);
+    out.shading = nearest(picture.shading, window);
     out.region = resampled(picture.region, window);
   }
   for (std::size_t i = 0; i < out.linear.values().size(); ++i)

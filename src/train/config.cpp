@@ -87,6 +87,10 @@ std::string TrainConfig::validate() const {
   if (architecture != "unet" && architecture != "face" && architecture != "mscr") {
     return "The training config's architecture is \"" + architecture + "\"; there are unet, face and mscr.";
   }
+  if (picture_px != 0 && (picture_px < 8 || architecture != "face")) {
+    return "The training config's picture_px is " + std::to_string(picture_px) + " for the architecture \"" +
+           architecture + "\"; allowed is 0, and for face 8 to 1024.";
+  }
   return {};
 }
 

@@ -38,8 +38,9 @@ LightLoss::LightLoss() {
 LightLoss::Terms LightLoss::terms(const torch::Tensor& found, const torch::Tensor& truth) const {
   const torch::Tensor ball = torch::matmul(diffuse_rows_, found);
   const torch::Tensor true_ball = torch::matmul(diffuse_rows_, truth);
-  // Over the brighter of the two, so that neither a lamp too many nor one too few is without bounds.
-  const torch::Tensor brightest = torch::maximum(ball.amax({1, 2}, true), true_ball.amax({1, 2}, true));
+  // Over the brighter of the two, so that neither a lamp too many nor one too few is without bounds; as a constant, or one bright spot would
+  // make all other errors small.
+  const torch::Tensor brightest = torch::maximum(ball.detach().amax({1, 2}, true), true_ball.amax({1, 2}, true));
   const torch::Tensor error = (ball - true_ball) / brightest;
   const torch::Tensor glossy =
       (torch::matmul(lobe_rows_, found) + kFloor).log() - (torch::matmul(lobe_rows_, truth) + kFloor).log();

@@ -101,6 +101,11 @@ bool finds_surface(const TrainConfig& config) { return config.architecture == ne
 Model make_model(const TrainConfig& config) {
   if (config.architecture == net::kMscrArchitecture) return mscr_model(config.network);
   Model model = unet_model(config.network, finds_surface(config));
+  if (const auto unet = std::dynamic_pointer_cast<net::UNetImpl>(model.module);
+      config.picture_px % unet->multiple() != 0) {
+    throw Error(ExitCode::kUsage, "The training config's picture_px is " + std::to_string(config.picture_px) +
+                                      "; this network takes multiples of " + std::to_string(unet->multiple()) + ".");
+  }
   if (config.picture_px > 0) model.metadata[net::kPictureKey] = std::to_string(config.picture_px);
   return model;
 }

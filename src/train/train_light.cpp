@@ -46,6 +46,11 @@ Examples read_examples(const std::filesystem::path& folder) {
   Examples out{torch::empty({count, inputs}), torch::empty({count, cells, 3})};
   for (std::int64_t i = 0; i < count; ++i) {
     const synth::TracedPhoto& photo = photos[static_cast<std::size_t>(i)];
+    if (photo.features.size() != inputs || photo.light.rows() != cells || !photo.features.allFinite() ||
+        !photo.light.allFinite())
+      throw Error(ExitCode::kInput,
+                  "What was read from photo " + std::to_string(i) + " in " + folder.string() +
+                      " is damaged or of another version. Remove its traced files and run `faceprobe trace` again.");
     std::copy_n(photo.features.data(), inputs, out.features.data_ptr<float>() + i * inputs);
     Eigen::Map<Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>>(out.light.data_ptr<float>() + i * cells * 3,
                                                                          cells, 3) = photo.light;

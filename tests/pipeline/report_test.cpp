@@ -30,8 +30,8 @@ std::set<std::string> files_under(const fs::path& folder) {
 
 // The list of include/faceprobe/pipeline/outputs.h for one face.
 std::set<std::string> files_of_a_face(bool layers = true) {
-  std::set<std::string> names = {"environment.exr", "environment.hdr", "environment.png", "confidence.exr",
-                                 "overview.png"};
+  std::set<std::string> names = {"environment.exr",      "environment.hdr", "environment.png", "confidence.exr",
+                                 "environment_rest.exr", "light.usda",      "blender.py",      "overview.png"};
   if (!layers) return names;
   names.insert("regions.png");
   for (const char* layer : {"highlight", "diffuse", "albedo", "shading", "normals"}) {
@@ -108,8 +108,9 @@ TEST(Outputs, SeveralFacesGetAFolderEach) {
   OutputOptions output;
   output.layers = false;
   write_outputs(folder.path(), estimate, two, options, "two.jpg", output);
-  std::set<std::string> wanted = {"report.json", "joint/environment.exr", "joint/environment.hdr",
-                                  "joint/environment.png", "joint/confidence.exr"};
+  std::set<std::string> wanted = {"report.json",           "joint/environment.exr", "joint/environment.hdr",
+                                  "joint/environment.png", "joint/confidence.exr",  "joint/environment_rest.exr",
+                                  "joint/light.usda",      "joint/blender.py"};
   for (const std::string& name : files_of_a_face(false)) {
     for (const char* place : {"", "face_1/", "face_2/"}) wanted.insert(place + name);
   }

@@ -11,7 +11,7 @@
 namespace faceprobe::pipeline {
 namespace {
 
-// Two people who see one lamp exactly, and one of them the window behind it.
+// Two people who see one lamp exactly.
 Estimate two_faces(const Eigen::Vector3d& lamp_m) {
   Estimate estimate;
   for (const Eigen::Vector3d& place : {Eigen::Vector3d(-0.6, 0, -2), Eigen::Vector3d(0.7, 0.1, -2.2)}) {

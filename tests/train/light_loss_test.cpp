@@ -45,18 +45,31 @@ TEST(LightLoss, TheDiffuseBallDoesNotKnowWhatIsStraightBehind) {
   EXPECT_GT(terms.glossy.item<double>(), 0.05);
 }
 
+// No bright spot anywhere may pay: it would make the rest of the ball small beside it.
+TEST(LightLoss, ABrighterSpotNeverLooksLikeAGain) {
+  const LightLoss loss;
+  const torch::Tensor truth = lamp({0.3F, 0.5F, 0.8F}, 20);
+  torch::Tensor light = lamp({0.3F, 0.5F, 0.8F}, 20);
+  const std::int64_t rim = SphereGrid(lighting::kFeatureNside).cell_of({0.9F, 0.3F, -0.3F});
+  light[0][rim][2] += 30;
+  light.set_requires_grad(true);
+  loss.terms(light, truth).diffuse.backward();
+  EXPECT_GT(light.grad()[0][rim][2].item<double>(), 0);
+}
+
 TEST(LightLoss, ItsGradientIsThatOfFiniteDifferences) {
   const LightLoss loss;
   torch::manual_seed(2);
   const torch::Tensor truth = torch::rand({2, lighting::kFeatureCells, 3}) + 0.1;
-  const torch::Tensor light = (torch::rand({2, lighting::kFeatureCells, 3}) + 0.1).set_requires_grad(true);
+  // Darker than the truth, which then says what white is.
+  const torch::Tensor light = (0.3 * torch::rand({2, lighting::kFeatureCells, 3}) + 0.1).set_requires_grad(true);
   const auto value = [&](const torch::Tensor& x) {
     const LightLoss::Terms terms = loss.terms(x, truth);
     return terms.diffuse + terms.glossy;
   };
   value(light).backward();
   const torch::NoGradGuard no_grad;
-  const torch::Tensor step = torch::randn_like(light) * 1e-2;
+  const torch::Tensor step = torch::randn_like(light) * 3e-3;
   const double slope = (light.grad() * step).sum().item<double>();
   const double change = (value(light + step) - value(light - step)).item<double>() / 2;
   EXPECT_NEAR(change, slope, 0.02 * std::abs(slope) + 1e-5);  // single precision, and the curve of the step

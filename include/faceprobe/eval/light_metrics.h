@@ -32,7 +32,7 @@ SphereError sphere_error(const Eigen::MatrixX3f& truth, const Eigen::MatrixX3f& 
                          render::SphereMaterial material);
 
 // The supplement's error of maps: root mean square over cells of luminance once both have the same mean, over the range of the estimate
-// (as the paper has it; one bright cell lowers it) or of the truth.
+// (as the paper has it; one bright cell lowers it) or of the truth. NaN over the range of a light that is even.
 struct MapError {
   double over_estimate_range = 0;
   double over_truth_range = 0;

@@ -53,15 +53,16 @@ struct SolveOptions {
 struct Light {
   Eigen::MatrixX3f radiance;   // #cells x 3, linear Rec.709, relative to the photo's white and the assumed skin albedo
   Eigen::VectorXf confidence;  // #cells, 0 = from the prior, 1 = well observed
-  Eigen::Vector3f ambient;     // the level that unobserved cells are given
-  float highlight_gain = 1;    // what the highlights were divided by to agree with the shading
-  float leak = 0;              // diffuse light found in the highlights, per unit of shading, and taken out
+  Eigen::Vector3f ambient;   // median of well observed cells; what unobserved ones are given where no light is expected
+  float highlight_gain = 1;  // what the highlights were divided by to agree with the shading
+  float leak = 0;            // diffuse light found in the highlights, per unit of shading, and taken out
 };
 
 // Throws std::invalid_argument for observations or options that do not validate. No highlights at all is not an error: the
 // shading alone answers then, and without either the light is black with confidence 0.
 // `expected`: #cells x 3, >= 0, the light to expect before the pixels are asked, at any scale (net/light_prior.h); empty = one lamp and an even
-// surround that fit the shading. The transport solver starts from it and leaves it where nothing is observed; the paper's does not know it.
+// surround that fit the shading. The transport solver starts from it and leaves it where nothing is observed; the paper's does not know it, and
+// without any shading nobody does, because its scale is the shading's.
 Light solve(const Observations& observations, const SolveOptions& options, const Eigen::MatrixX3f& expected = {});
 
 // The two solvers by themselves; `solve` picks one by options.solver.

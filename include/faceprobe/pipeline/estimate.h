@@ -59,7 +59,8 @@ struct EstimateOptions {
   PriorSource prior = PriorSource::kNet;  // with a classical separator the smooth one, which needs no network
   std::filesystem::path prior_weights;    // empty = those that come with the program
   // Least share of a face's crop that the photo must show for the network's layers; below, the classical separator and the regions step in,
-  // and its normals alone are used. The network learnt from whole heads; of the middle of a face alone it makes shading a highlight.
+  // and its normals alone are used, and no prior, which learnt from the network's layers. The network learnt from whole heads; of the middle of
+  // a face alone it makes shading a highlight.
   double least_shown = 2.0 / 3.0;
   lighting::SolveOptions solve;
   lighting::MainLightOptions main_lights;
@@ -76,6 +77,8 @@ struct EstimateOptions {
 
   // Empty when usable, else a sentence that says which value is wrong.
   std::string validate() const;
+  // Whether the light prior has a say: not beside a classical separator or the paper's solver.
+  bool asks_prior() const;
   // "net", or the classical separator's name: what reports call it.
   std::string separator_name() const;
 };
@@ -91,6 +94,8 @@ struct LightResult {
 
 struct FaceEstimate : LightResult {
   face::Face face;
+  bool enough_shown =
+      true;  // of the face, for the network's layers and the light prior; see EstimateOptions::least_shown
   face::FaceGeometry geometry;   // crop
   Image picture;                 // the photo in the crop, linear
   ByteImage clipped;             // io::Photo flags in the crop
@@ -105,6 +110,7 @@ struct FaceEstimate : LightResult {
 struct FaceEvidence {
   lighting::Observations observations;
   double energy = 0;  // luminance of its own light, summed over the sphere's cells
+  bool enough_shown = true;
 };
 FaceEvidence evidence_of(const FaceEstimate& face);
 
@@ -140,9 +146,12 @@ class Estimator {
   const EstimateOptions& options() const;
   // Throws Error(kNoFace) when no usable face is found.
   Estimate estimate(const io::Photo& photo) const;
+  // From what a face says to the light, by the options' prior and solver; the last step of estimate(), for observations from elsewhere.
+  // Without `ask_prior` the solver starts from the smooth fit.
+  lighting::Light light_of(const lighting::Observations& observations, bool ask_prior = true) const;
   // One distant light for faces of one photo, or of several that the same camera took from the same place in the same light, such as a burst:
   // more patches, each with noise of its own. Every face is first scaled to the mean energy of the single estimates, because photos tell
-  // neither albedos nor exposures. Many faces are thinned to options().max_patches in all. Throws std::invalid_argument for none.
+  // neither albedos nor exposures. The prior is asked when the photos show enough of all of them. Many faces are thinned to options().max_patches in all. Throws std::invalid_argument for none.
   LightResult joint(const std::vector<FaceEvidence>& faces) const;
   // The faces alone, left to right; empty when there are none.
   std::vector<face::Face> find_faces(const io::Photo& photo) const;

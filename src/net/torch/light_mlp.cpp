@@ -21,7 +21,7 @@ void LightMlpImpl::standardise(const torch::Tensor& examples) {
   constexpr double kLeastSpread = 0.02;  // of inputs that hardly change
   const torch::NoGradGuard no_grad;
   mean_.copy_(examples.mean(0));
-  scale_.copy_(1 / (examples.std(0) + kLeastSpread));
+  scale_.copy_(1 / (examples.std(0, false) + kLeastSpread));
 }
 
 torch::Tensor LightMlpImpl::forward(const torch::Tensor& features, double drop) {

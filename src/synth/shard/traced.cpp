@@ -28,7 +28,10 @@ void write_traced(const std::filesystem::path& folder, int shard, std::span<cons
 
 std::vector<TracedPhoto> read_traced(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+  std::error_code problem;
+  const std::filesystem::directory_iterator entries(folder, problem);
+  if (problem) throw Error(ExitCode::kInput, folder.string() + " cannot be read: " + problem.message() + ".");
+  for (const auto& entry : entries) {
     const std::string name = entry.path().filename().string();
     if (name.starts_with("traced-") && name.ends_with(".safetensors")) files.push_back(entry.path());
   }
@@ -36,12 +39,12 @@ std::vector<TracedPhoto> read_traced(const std::filesystem::path& folder) {
   std::vector<TracedPhoto> photos;
   for (const std::filesystem::path& path : files) {
     const io::MappedTensors file(path);
-    const std::int64_t inputs = file.shape("photo.features").at(1);
     const std::span<const float> features = file.values<float>("photo.features", {-1, -1});
+    const std::int64_t inputs = file.shape("photo.features")[1];
     const std::span<const float> light = file.values<float>("photo.light", {-1, -1, 3});
-    const std::int64_t count = file.shape("photo.features").at(0);
-    const std::int64_t cells = file.shape("photo.light").at(1);
-    if (file.shape("photo.light").at(0) != count)
+    const std::int64_t count = file.shape("photo.features")[0];
+    const std::int64_t cells = file.shape("photo.light")[1];
+    if (file.shape("photo.light")[0] != count)
       throw Error(ExitCode::kInput, path.string() + " has more lights than photos, or fewer. Make it again.");
     using Rows = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
     for (std::int64_t i = 0; i < count; ++i) {
