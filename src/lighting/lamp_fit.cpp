@@ -165,8 +165,8 @@ LampFit fit_near_lamp(const std::vector<FaceLights>& faces, const std::vector<Si
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(curvature(rays, variance, fit.position_m, kStep_m, options));
   // A direction in which the cost does not rise is not known: as uncertain as the room is large.
-  const Eigen::Vector3d variance = axes.eigenvalues().cwiseMax(1 / (options.most_m * options.most_m)).cwiseInverse();
-  fit.covariance_m2 = axes.eigenvectors() * variance.asDiagonal() * axes.eigenvectors().transpose();
+  const Eigen::Vector3d along = axes.eigenvalues().cwiseMax(1 / (options.most_m * options.most_m)).cwiseInverse();
+  fit.covariance_m2 = axes.eigenvectors() * along.asDiagonal() * axes.eigenvectors().transpose();
   return fit;
 }
 
