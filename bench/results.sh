@@ -155,7 +155,7 @@ for section in "${sections[@]}"; do
   {
     printf '## %s\n\n`%s`, on %s.\n\n' "$(title_of "$section")" "$(command_of "$section")" "$(machine)"
     # Nobody's folders are published.
-    sed -e "s|$data|DIR|g" -e "s|$build|BUILD|g" ${faces:+-e "s|$faces|FACES|g"} ${training:+-e "s|$training|TRAINING|g"} \
+    sed -e "s|$data|DIR|g" -e "s|$build|BUILD|g" ${faces:+-e "s|$faces|FACES|g"} ${training:+-e "s|$training|TRAINING|g"} ${light:+-e "s|$light|LIGHT|g"} \
       -e "s|$root/||g" "$work/output"
   } | cat -s >"$work/$section"
 done

@@ -9,7 +9,7 @@
 namespace faceprobe::lighting {
 namespace {
 
-constexpr double kLeastDistance_m = 0.05;
+constexpr double kLeastMetres = 0.05;
 
 struct Ray {
   Eigen::Vector3d from, towards;
@@ -67,7 +67,7 @@ double near_cost(const std::vector<Ray>& rays, const std::vector<double>& varian
   Eigen::VectorXd log_distance(static_cast<Eigen::Index>(rays.size()));
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const Eigen::Vector3d offset = position - rays[i].from;
-    const double distance = std::max(kLeastDistance_m, offset.norm());
+    const double distance = std::max(kLeastMetres, offset.norm());
     log_distance[static_cast<Eigen::Index>(i)] = std::log(distance);
     cost += squared_angle(offset, rays[i].towards) / variance[i] + spread_cost(variance[i], options);
   }
@@ -123,7 +123,7 @@ Eigen::Vector3d nearest_to_rays(const std::vector<Ray>& rays, const TriangulateO
     }
     position = left.ldlt().solve(right);
     for (std::size_t i = 0; i < rays.size(); ++i)
-      distance[i] = std::max(kLeastDistance_m, (position - rays[i].from).norm());
+      distance[i] = std::max(kLeastMetres, (position - rays[i].from).norm());
   }
   return position;
 }
@@ -140,7 +140,7 @@ LampFit fit_near_lamp(const std::vector<FaceLights>& faces, const std::vector<Si
   fit.position_m = nearest_to_rays(rays, options);
   std::vector<double> variance;
   for (const Ray& ray : rays) {
-    const double distance = std::max(kLeastDistance_m, (fit.position_m - ray.from).norm());
+    const double distance = std::max(kLeastMetres, (fit.position_m - ray.from).norm());
     variance.push_back(angular_variance(ray, distance, options));
   }
   fit.cost = near_cost(rays, variance, fit.position_m, options);

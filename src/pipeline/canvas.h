@@ -12,6 +12,9 @@ namespace faceprobe::pipeline {
 
 using Colour = std::array<std::uint8_t, 3>;
 
+inline constexpr Colour kPaper = {24, 25, 28};
+inline constexpr Colour kInk = {226, 228, 232};
+
 // Copies a three-channel picture so that its top left corner is at (x, y); what does not fit is cut.
 void paste(ByteImage& canvas, const ByteImage& picture, int x, int y);
 // Anti-aliased line of about 1 px, mixed with the canvas by `opacity` 0..1.

@@ -12,15 +12,13 @@
 namespace faceprobe::pipeline {
 namespace {
 
-constexpr Colour kPaper = {24, 25, 28};
-constexpr Colour kInk = {226, 228, 232};
-constexpr Colour kDim = {90, 94, 102};
+constexpr Colour kRayColour = {90, 94, 102};
 constexpr Colour kFaceColour = {90, 220, 255};
 constexpr std::array<Colour, 5> kLampColours = {
     {{255, 200, 60}, {255, 92, 80}, {110, 225, 120}, {110, 170, 255}, {225, 130, 255}}};
-constexpr int kSide = 640;
-constexpr int kMargin = 48;
-constexpr double kRay_m = 1.2;
+constexpr int kViewPx = 640;
+constexpr int kFrameMargin = 48;
+constexpr double kRayMetres = 1.2;
 
 // A view along an axis: two coordinates of the room across and up the picture.
 struct View {
@@ -38,10 +36,10 @@ struct Frame {
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
-  double scale() const { return (kSide - 2 * kMargin) / std::max(0.5, (high - low).maxCoeff()); }
+  double scale() const { return (kViewPx - 2 * kFrameMargin) / std::max(0.5, (high - low).maxCoeff()); }
   Eigen::Vector2d pixel(const Eigen::Vector2d& p, int left_px) const {
     const Eigen::Vector2d middle = 0.5 * (low + high);
-    return {left_px + 0.5 * kSide + scale() * (p.x() - middle.x()), 0.5 * kSide - scale() * (p.y() - middle.y())};
+    return {left_px + 0.5 * kViewPx + scale() * (p.x() - middle.x()), 0.5 * kViewPx - scale() * (p.y() - middle.y())};
   }
 };
 
@@ -81,7 +79,7 @@ void draw_view(ByteImage& canvas, const View& view, const Room& room) {
   for (std::size_t f = 0; f < room.faces.size(); ++f) {
     const lighting::FaceLights& face = room.faces[f];
     for (const lighting::MainLight& light : face.lights)
-      draw_line(canvas, pixel(face.position_m), pixel(face.position_m + kRay_m * light.direction), kDim, 0.8F);
+      draw_line(canvas, pixel(face.position_m), pixel(face.position_m + kRayMetres * light.direction), kRayColour, 0.8F);
     draw_ring(canvas, pixel(face.position_m), std::max(4.0, 0.1 * frame.scale()), kFaceColour);
     label(face.position_m, "face " + std::to_string(f + 1), kFaceColour);
   }
@@ -90,7 +88,7 @@ void draw_view(ByteImage& canvas, const View& view, const Room& room) {
     const Colour& colour = kLampColours[i % kLampColours.size()];
     for (const lighting::Sighting& s : lamp.seen) {
       const Eigen::Vector3d& from = room.faces[static_cast<std::size_t>(s.face)].position_m;
-      const Eigen::Vector3d to = lamp.near ? lamp.position_m : Eigen::Vector3d(from + kRay_m * lamp.direction);
+      const Eigen::Vector3d to = lamp.near ? lamp.position_m : Eigen::Vector3d(from + kRayMetres * lamp.direction);
       draw_line(canvas, pixel(from), pixel(to), colour, 0.7F);
     }
     if (!lamp.near) continue;
@@ -99,19 +97,19 @@ void draw_view(ByteImage& canvas, const View& view, const Room& room) {
     label(lamp.position_m, "lamp " + std::to_string(i + 1), colour);
   }
   // A metre, to measure by.
-  const Eigen::Vector2d start(view.left_px + 16, kSide - 20);
+  const Eigen::Vector2d start(view.left_px + 16, kViewPx - 20);
   draw_line(canvas, start, start + Eigen::Vector2d(frame.scale(), 0), kInk);
-  io::draw_text(canvas, view.left_px + 16, kSide - 44, "1 m", 15, kInk, false);
+  io::draw_text(canvas, view.left_px + 16, kViewPx - 44, "1 m", 15, kInk, false);
 }
 
 }  // namespace
 
 ByteImage draw_room(const Room& room) {
-  ByteImage canvas(2 * kSide, kSide, 3);
-  fill(canvas, 0, 0, 2 * kSide, kSide, kPaper);
+  ByteImage canvas(2 * kViewPx, kViewPx, 3);
+  fill(canvas, 0, 0, 2 * kViewPx, kViewPx, kPaper);
   // Away from the camera is up when seen from above, and to the right when seen from the side.
   draw_view(canvas, {0, 2, 1, -1, "from above", 0}, room);
-  draw_view(canvas, {2, 1, -1, 1, "from the right", kSide}, room);
+  draw_view(canvas, {2, 1, -1, 1, "from the right", kViewPx}, room);
   return canvas;
 }
 

@@ -17,8 +17,6 @@ namespace faceprobe::pipeline {
 
 namespace {
 
-constexpr Colour kPaper = {24, 25, 28};
-constexpr Colour kInk = {226, 228, 232};
 constexpr Colour kDim = {150, 154, 162};
 constexpr Colour kMesh = {90, 220, 255};
 constexpr std::array<Colour, 5> kLights = {

@@ -44,7 +44,7 @@ Json lamp_json(const lighting::Lamp& lamp) {
 }  // namespace
 
 std::string RoomOptions::validate() const {
-  if (const std::string fault = triangulate.validate(); !fault.empty()) return fault;
+  if (std::string fault = triangulate.validate(); !fault.empty()) return fault;
   if (!(least_position_error_m > 0 && least_position_error_m < 100))
     return "least_position_error_m must lie in (0, 100).";
   if (!(relative_position_error >= 0 && relative_position_error < 1))

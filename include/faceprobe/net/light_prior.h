@@ -21,6 +21,8 @@ class LightPrior {
  public:
   // Throws Error(kModel): the file is not there, damaged, or of another network.
   explicit LightPrior(const std::filesystem::path& weights);
+  LightPrior(const LightPrior&) = delete;
+  LightPrior& operator=(const LightPrior&) = delete;
   LightPrior(LightPrior&&) noexcept;
   LightPrior& operator=(LightPrior&&) noexcept;
   ~LightPrior();
