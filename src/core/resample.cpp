@@ -28,6 +28,24 @@ std::vector<Pair> axis(double start, double scale, int count, int size, int each
   return pairs;
 }
 
+// Outside the picture `outside`, or its nearest pixel's.
+template <class T>
+BasicImage<T> each_nearest(const BasicImage<T>& picture, const Window& window, std::optional<T> outside) {
+  BasicImage<T> part(window.width, window.height, picture.channels(), outside.value_or(T{}));
+  if (picture.empty()) return part;
+  for (int y = 0; y < window.height; ++y) {
+    for (int x = 0; x < window.width; ++x) {
+      const auto from_x = static_cast<int>(std::floor(window.left_px + (x + 0.5) / window.scale));
+      const auto from_y = static_cast<int>(std::floor(window.top_px + (y + 0.5) / window.scale));
+      const int inner_x = std::clamp(from_x, 0, picture.width() - 1);
+      const int inner_y = std::clamp(from_y, 0, picture.height() - 1);
+      if (outside && (inner_x != from_x || inner_y != from_y)) continue;
+      std::copy_n(picture.pixel(inner_x, inner_y), picture.channels(), part.pixel(x, y));
+    }
+  }
+  return part;
+}
+
 }  // namespace
 
 Image resampled(const Image& picture, const Window& window, Outside outside) {
@@ -58,19 +76,9 @@ Image resampled(const Image& picture, const Window& window, Outside outside) {
 }
 
 ByteImage resampled(const ByteImage& labels, const Window& window, std::optional<std::uint8_t> outside) {
-  ByteImage part(window.width, window.height, labels.channels(), outside.value_or(0));
-  if (labels.empty()) return part;
-  for (int y = 0; y < window.height; ++y) {
-    for (int x = 0; x < window.width; ++x) {
-      const auto from_x = static_cast<int>(std::floor(window.left_px + (x + 0.5) / window.scale));
-      const auto from_y = static_cast<int>(std::floor(window.top_px + (y + 0.5) / window.scale));
-      const int inner_x = std::clamp(from_x, 0, labels.width() - 1);
-      const int inner_y = std::clamp(from_y, 0, labels.height() - 1);
-      if (outside && (inner_x != from_x || inner_y != from_y)) continue;
-      std::copy_n(labels.pixel(inner_x, inner_y), labels.channels(), part.pixel(x, y));
-    }
-  }
-  return part;
+  return each_nearest(labels, window, outside);
 }
+
+Image nearest(const Image& picture, const Window& window) { return each_nearest(picture, window, std::optional(0.0F)); }
 
 }  // namespace faceprobe

@@ -23,10 +23,6 @@ Image scaled_and_clipped(Image image, float gain) {
 
 float brightest(const Image& image) { return *std::max_element(image.values().begin(), image.values().end()); }
 
-double angle_deg(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return degrees(std::atan2(a.cross(b).norm(), a.dot(b)));
-}
-
 struct Sphere {
   Image colour;
   ByteImage mask;
@@ -128,14 +124,14 @@ double main_light_error_deg(const Eigen::MatrixX3f& truth, const Eigen::MatrixX3
   (estimate * kLuminance).maxCoeff(&cell);
   const Eigen::Vector3d direction =
       found.empty() ? Eigen::Vector3d(grid.directions().row(cell).transpose().cast<double>()) : found[0].direction;
-  return angle_deg(right[0].direction, direction);
+  return angle_between_deg(right[0].direction, direction);
 }
 
 double light_colour_error_deg(const Eigen::MatrixX3f& truth, const Eigen::MatrixX3f& estimate) {
   const Eigen::Vector3d right = truth.cast<double>().colwise().sum().transpose();
   const Eigen::Vector3d found = estimate.cast<double>().colwise().sum().transpose();
   if (!(right.norm() > 0 && found.norm() > 0)) return kNaN;
-  return angle_deg(right, found);
+  return angle_between_deg(right, found);
 }
 
 }  // namespace faceprobe::eval

@@ -13,10 +13,6 @@
 namespace faceprobe::lighting {
 namespace {
 
-double angle_deg(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return degrees(std::atan2(a.cross(b).norm(), a.dot(b)));
-}
-
 const MainLight& light_of(const std::vector<FaceLights>& faces, const Sighting& s) {
   return faces[static_cast<std::size_t>(s.face)].lights[static_cast<std::size_t>(s.light)];
 }
@@ -37,8 +33,8 @@ std::vector<Sighting> supporters(const std::vector<FaceLights>& faces, const Lam
     double best_deg = options.max_miss_deg;
     for (int i = 0; i < static_cast<int>(face.lights.size()); ++i) {
       const MainLight& light = face.lights[static_cast<std::size_t>(i)];
-      const double miss = angle_deg(light.direction, towards);
-      if (used.contains({f, i}) || miss >= best_deg || angle_deg(light.colour, colour) > options.max_colour_deg)
+      const double miss = angle_between_deg(light.direction, towards);
+      if (used.contains({f, i}) || miss >= best_deg || angle_between_deg(light.colour, colour) > options.max_colour_deg)
         continue;
       best = i;
       best_deg = miss;
@@ -62,7 +58,7 @@ bool plausible(const std::vector<FaceLights>& faces, const LampFit& fit, const s
     const Eigen::Vector3d& from = faces[static_cast<std::size_t>(s.face)].position_m;
     const double distance = (fit.position_m - from).norm();
     const bool in_room = !fit.near || (distance >= options.least_m && distance <= options.most_m);
-    return in_room && angle_deg(light_of(faces, s).direction, fit.seen_from(from)) <= options.max_miss_deg;
+    return in_room && angle_between_deg(light_of(faces, s).direction, fit.seen_from(from)) <= options.max_miss_deg;
   });
 }
 
@@ -70,7 +66,7 @@ bool plausible(const std::vector<FaceLights>& faces, const LampFit& fit, const s
 std::optional<Candidate> candidate_of(const std::vector<FaceLights>& faces, const Sighting& a, const Sighting& b,
                                       const Used& used, const TriangulateOptions& options) {
   const Eigen::Vector3d colour = light_of(faces, a).colour;
-  if (angle_deg(colour, light_of(faces, b).colour) > options.max_colour_deg) return std::nullopt;
+  if (angle_between_deg(colour, light_of(faces, b).colour) > options.max_colour_deg) return std::nullopt;
   Candidate out;
   const std::vector<Sighting> pair = {a, b};
   const LampFit first_near = fit_near_lamp(faces, pair, options);
@@ -114,7 +110,7 @@ Lamp lamp_of(const std::vector<FaceLights>& faces, const Candidate& candidate) {
     middle += from;
     colour += light.irradiance * light.colour;
     log_intensity += std::log(light.irradiance * distance * distance);
-    miss += std::pow(angle_deg(light.direction, fit.seen_from(from)), 2);
+    miss += std::pow(angle_between_deg(light.direction, fit.seen_from(from)), 2);
   }
   const auto count = static_cast<double>(candidate.seen.size());
   lamp.direction = fit.seen_from(middle / count);

@@ -2,6 +2,7 @@
 
 #include "faceprobe/core/error.h"
 #include "faceprobe/core/parallel.h"
+#include "faceprobe/core/pixel_box.h"
 #include "faceprobe/core/region.h"
 #include "faceprobe/core/resample.h"
 #include "faceprobe/lighting/face_features.h"
@@ -24,24 +25,15 @@ constexpr Eigen::Index kLeastPatches = 30;  // as an estimate wants
 
 // The crop that face::face_crop makes of the mesh's box.
 std::optional<Window> crop_of(const ByteImage& region) {
-  int left = region.width(), right = 0, top = region.height(), bottom = 0;
-  for (int y = 0; y < region.height(); ++y) {
-    for (int x = 0; x < region.width(); ++x) {
-      if (region(x, y) == 0) continue;
-      left = std::min(left, x);
-      right = std::max(right, x + 1);
-      top = std::min(top, y);
-      bottom = std::max(bottom, y + 1);
-    }
-  }
-  if (right <= left) return std::nullopt;
+  const std::optional<PixelBox> box = box_of(region);
+  if (!box) return std::nullopt;
   const double margin = face::GeometryOptions{}.margin;
-  const double across = margin * (right - left);
-  const double down = margin * (bottom - top);
-  const double x0 = std::floor(left - across);
-  const double y0 = std::floor(top - down);
-  return Window{x0, y0, 1, static_cast<int>(std::ceil(right + across) - x0),
-                static_cast<int>(std::ceil(bottom + down) - y0)};
+  const double across = margin * box->width();
+  const double down = margin * box->height();
+  const double x0 = std::floor(box->left - across);
+  const double y0 = std::floor(box->top - down);
+  return Window{x0, y0, 1, static_cast<int>(std::ceil(box->right + across) - x0),
+                static_cast<int>(std::ceil(box->bottom + down) - y0)};
 }
 
 // The photo in its crop, as Estimator has it; the surface's place in space, which only shadows need, is left out.

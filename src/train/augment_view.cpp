@@ -8,19 +8,6 @@
 namespace faceprobe::train {
 namespace {
 
-Image nearest(const Image& picture, const Window& window) {
-  Image part(window.width, window.height, picture.channels());
-  for (int y = 0; y < window.height; ++y) {
-    for (int x = 0; x < window.width; ++x) {
-      const auto from_x = static_cast<int>(std::floor(window.left_px + (x + 0.5) / window.scale));
-      const auto from_y = static_cast<int>(std::floor(window.top_px + (y + 0.5) / window.scale));
-      if (from_x < 0 || from_y < 0 || from_x >= picture.width() || from_y >= picture.height()) continue;
-      std::copy_n(picture.pixel(from_x, from_y), picture.channels(), part.pixel(x, y));
-    }
-  }
-  return part;
-}
-
 void put_outside(TrainingPicture& picture, int x, int y) {
   std::fill_n(picture.linear.pixel(x, y), 3, 0.0F);
   std::fill_n(picture.highlight.pixel(x, y), 3, 0.0F);

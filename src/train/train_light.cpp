@@ -12,8 +12,8 @@
 #include "net/torch/weights.h"
 #include "train/checkpoint.h"
 #include "train/light_loss.h"
+#include "train/schedule.h"
 
-#include <cmath>
 #include <optional>
 #include <sstream>
 
@@ -144,7 +144,7 @@ class LightTraining {
   }
 
   void set_rate(double share) {
-    const double rate = config_.learning_rate * 0.5 * (1 + std::cos(3.14159265358979 * share));
+    const double rate = config_.learning_rate * half_cosine(share, 0);
     for (torch::optim::OptimizerParamGroup& group : optimizer_.param_groups())
       static_cast<torch::optim::AdamWOptions&>(group.options()).lr(rate);
   }

@@ -49,6 +49,20 @@ TEST(Resample, OutsideIsBlackOrTheEdge) {
   EXPECT_EQ(resampled(ones, window, 9)(4, 1), 1);
 }
 
+TEST(Resample, NearestMixesNothing) {
+  Image halves(8, 4, 1);
+  for (int y = 0; y < 4; ++y) {
+    for (int x = 4; x < 8; ++x) halves(x, y) = 1;
+  }
+  const Image part = nearest(halves, {.left_px = 1, .top_px = 0, .scale = 1.7, .width = 14, .height = 6});
+  for (int y = 0; y < 6; ++y) {
+    for (int x = 0; x < 14; ++x) {
+      const double from = 1 + (x + 0.5) / 1.7;
+      EXPECT_EQ(part(x, y), from >= 4 && from < 8 ? 1.0F : 0.0F);  // 0 outside, too
+    }
+  }
+}
+
 TEST(Resample, TheWindowBackShowsThePictureAgain) {
   const Image picture = ramp(20, 16);
   const Window window{.left_px = 2, .top_px = 3, .scale = 1.5, .width = 21, .height = 18};

@@ -33,4 +33,7 @@ Image resampled(const Image& picture, const Window& window, Outside outside = Ou
 // Outside the picture `outside`, or its nearest pixel's.
 ByteImage resampled(const ByteImage& labels, const Window& window, std::optional<std::uint8_t> outside = std::nullopt);
 
+// Numbers between which there is nothing, such as depth: each the nearest pixel's; 0 outside the picture.
+Image nearest(const Image& picture, const Window& window);
+
 }  // namespace faceprobe
