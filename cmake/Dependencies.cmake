@@ -1,7 +1,5 @@
 find_package(Threads REQUIRED)
-if(FACEPROBE_SYNTH)
-  find_package(embree 3.13 REQUIRED)
-endif()
+find_package(embree 3.13 REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(OpenCV 4.5 REQUIRED COMPONENTS core imgproc calib3d)
 find_package(nlohmann_json 3.11 REQUIRED)

@@ -15,7 +15,7 @@ debian_packages=(
   g++ cmake ninja-build pkg-config time ca-certificates fonts-dejavu-core
   libeigen3-dev libopenimageio-dev libopencv-core-dev libopencv-imgproc-dev libopencv-calib3d-dev liblcms2-dev
   libdnnl-dev ocl-icd-opencl-dev  # the first asks for the second when it is configured, and does not depend on it
-  libtorch-dev libembree-dev libopenblas-dev libmatio-dev libhdf5-dev libtinyobjloader-dev libzip-dev
+  libtorch-dev libembree-dev libopenblas-dev libmatio-dev libhdf5-dev libtinyobjloader-dev libassimp-dev libzip-dev
   nlohmann-json3-dev libcli11-dev libspdlog-dev libnanoflann-dev libgtest-dev
 )
 developer_packages=(clang clang-format clang-tidy)

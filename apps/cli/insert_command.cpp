@@ -1,0 +1,156 @@
+#include "commands.h"
+#include "faceprobe/assets/model.h"
+#include "faceprobe/core/color.h"
+#include "faceprobe/core/error.h"
+#include "faceprobe/io/picture_file.h"
+#include "faceprobe/pipeline/insertion.h"
+#include "faceprobe/pipeline/insertion_files.h"
+#include "faceprobe/render/shapes.h"
+#include "progress.h"
+#include "shared_options.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+namespace faceprobe::cli {
+
+namespace {
+
+constexpr int kPreviewPx = 640;
+constexpr int kPreviewSamples = 16;
+
+struct Options : SharedOptions {
+  std::string output = "faceprobe-insert";
+  std::string object = "pot";
+  std::string material;
+  std::string matte;
+  std::vector<double> at_px;
+  std::optional<float> depth_m, height_m;
+  std::optional<double> horizon_px;
+  double turn_deg = 0;
+  bool no_ground = false;
+  bool preview = false;
+  bool json = false;
+  int samples = insert::Options{}.render.samples;
+  float noise = insert::Options{}.render.noise;
+  std::uint64_t seed = 1;
+};
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+// A shape of ours by its name, else a file.
+render::Model object_of(const Options& options) {
+  const std::vector<std::string>& shapes = render::shape_names();
+  render::Model model;
+  if (std::find(shapes.begin(), shapes.end(), options.object) != shapes.end()) {
+    model = render::shape(options.object);
+  } else if (std::filesystem::path(options.object).extension().empty()) {
+    throw Error(ExitCode::kUsage, "There is no object called '" + options.object + "'; take one of " + listed(shapes) +
+                                      ", or name an OBJ, PLY, STL, glTF or GLB file.");
+  } else {
+    assets::LoadedModel loaded = assets::load_model(options.object);
+    for (const std::string& warning : loaded.warnings) spdlog::warn("{}: {}", options.object, warning);
+    model = std::move(loaded.model);
+  }
+  if (options.material.empty()) return model;
+  const std::vector<std::string>& presets = render::material_preset_names();
+  if (std::find(presets.begin(), presets.end(), options.material) == presets.end())
+    throw Error(ExitCode::kUsage, "There is no material called '" + options.material + "'; take one of " + listed(presets) + ".");
+  model.materials = {render::material_preset(options.material)};
+  for (render::TriangleMesh& mesh : model.meshes) mesh.material = 0;
+  return model;
+}
+
+Image matte_of(const Options& options) {
+  if (options.matte.empty()) return {};
+  const io::Photo file = io::load_photo(options.matte, options.limits);
+  Image matte(file.linear.width(), file.linear.height(), 1);
+  // A matte's greys are shares, not light.
+  for (int y = 0; y < matte.height(); ++y) {
+    for (int x = 0; x < matte.width(); ++x) matte(x, y) = srgb_from_linear(luminance(file.linear.pixel(x, y)));
+  }
+  return matte;
+}
+
+int run(const Options& options) {
+  if (options.inputs.size() != 1)
+    throw Error(ExitCode::kUsage, "An object is put into one photo, found " + std::to_string(options.inputs.size()) + ".");
+  render::Model model = object_of(options);  // before the photo: a typing error should not cost an estimate
+  pipeline::InsertionOptions where{.depth_m = options.depth_m,
+                                   .height_m = options.height_m,
+                                   .turn_deg = static_cast<float>(options.turn_deg),
+                                   .horizon_px = options.horizon_px,
+                                   .ground = !options.no_ground,
+                                   .matte = matte_of(options)};
+  if (!options.at_px.empty()) where.at_px = Eigen::Vector2d(options.at_px[0], options.at_px[1]);
+  insert::Options how;
+  how.render.samples = options.preview ? kPreviewSamples : options.samples;
+  how.render.noise = options.noise;
+  how.render.seed = options.seed;
+  how.render.threads = options.threads;
+  for (const std::string& fault : {where.validate(), how.validate()}) {
+    if (!fault.empty()) throw Error(ExitCode::kUsage, fault);
+  }
+  const pipeline::Estimator estimator(estimate_options(options));
+  io::Photo photo = io::load_photo(options.inputs[0], options.limits);
+  const pipeline::Estimate estimate = estimator.estimate(photo);
+  for (const std::string& warning : estimate.warnings) spdlog::warn("{}", warning);
+  insert::Scene scene = pipeline::scene_for(photo, estimate, std::move(model), where);
+  if (options.preview) insert::shrink(photo.linear, scene, kPreviewPx);
+  Progress progress("drawing");
+  how.render.progress = [&](float share) { return progress.show(share); };
+  const insert::Insertion done = insert::insert_model(photo.linear, scene, how);
+  progress.end();
+  const std::filesystem::path output = options.output;
+  if (output.extension() == ".png" || output.extension() == ".exr") {
+    io::write_picture(output, done.picture);
+    spdlog::info("wrote {}", options.output);
+  } else {
+    const auto files = pipeline::write_insertion(output, done, scene, options.inputs[0], options.object);
+    spdlog::info("wrote {} files to {}", files.size(), options.output);
+  }
+  if (options.json) std::fputs(pipeline::insertion_json(done, scene, options.inputs[0], options.object).c_str(), stdout);
+  return 0;
+}
+
+}  // namespace
+
+void add_insert(CLI::App& program, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand("insert", "a virtual object into a photo, in the light of the faces");
+  add_inputs(*command, *options);
+  command->add_option("-o,--output", options->output, "folder for everything, or NAME.png/.exr for the picture alone")->capture_default_str();
+  command->add_option("--object", options->object, listed(render::shape_names()) + ", or an OBJ, PLY, STL, glTF or GLB file")
+      ->capture_default_str();
+  command->add_option("--material", options->material, "in place of the object's own: " + listed(render::material_preset_names()));
+  command->add_option("--at", options->at_px, "X Y: pixel of the photo where its foot stands; default: the lower corner with more room")
+      ->expected(2);
+  command->add_option("--distance", options->depth_m, "metres from the camera; default: three quarters of the largest face's");
+  command->add_option("--height", options->height_m, "metres; default: its longer side takes a third of the picture");
+  command->add_option("--turn", options->turn_deg, "degrees about its own axis, its front to the right")->capture_default_str();
+  command->add_option("--horizon", options->horizon_px, "height of the horizon in the photo, pixels from the top; default: from the heads");
+  command->add_flag("--no-ground", options->no_ground, "it floats: nothing takes its shadow");
+  command->add_option("--matte", options->matte, "picture of the photo's size, white where a person stands before far things");
+  command->add_flag("--preview", options->preview, "a quick look, " + std::to_string(kPreviewPx) + " pixels wide");
+  command->add_option("--samples", options->samples, "most rays per pixel")->capture_default_str()->check(CLI::Range(1, 1 << 20));
+  command->add_option("--noise", options->noise, "stop where the picture is this quiet; 0: never before --samples")->capture_default_str();
+  command->add_option("--seed", options->seed, "of the rays")->capture_default_str();
+  command->add_flag("--json", options->json, "print what stands where on stdout");
+  add_face_options(*command, *options);
+  add_solver_options(*command, *options);
+  command->footer(
+      "Examples:\n  faceprobe insert portrait.jpg -o with_pot.png\n"
+      "  faceprobe insert portrait.jpg --object bunny.ply --material silver --height 0.15 --preview -o look.png\n"
+      "  faceprobe insert portrait.jpg --object robot.glb --at 300 1180 --turn 30 -o out");
+  command->callback([options, &action] { action = [options] { return run(*options); }; });
+}
+
+}  // namespace faceprobe::cli

@@ -1,0 +1,159 @@
+#include "faceprobe/pipeline/insertion.h"
+
+#include "faceprobe/core/angles.h"
+#include "faceprobe/core/error.h"
+#include "faceprobe/core/sphere_grid.h"
+#include "faceprobe/insert/spot.h"
+#include "faceprobe/lighting/main_lights.h"
+#include "faceprobe/pipeline/room.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace faceprobe::pipeline {
+namespace {
+
+// Where a thing stands unless told: shares of the picture's size and of the face's depth.
+constexpr double kMargin = 0.02;
+constexpr double kBottom = 0.93;
+constexpr double kSize = 0.35;  // of its longer side, of the picture's shorter one
+constexpr float kNearer = 0.75F;
+constexpr float kLampRadiusM = 0.04F;  // a bulb with its shade: triangulation does not tell
+
+float depth_of(const FaceEstimate& face) { return static_cast<float>(-face.face.position_m().z()); }
+
+// Foot and height of the thing.
+struct Stand {
+  Eigen::Vector3f foot;
+  float height_m = 0;
+};
+Stand stand_of(const Estimate& estimate, const render::Model& model, const InsertionOptions& options) {
+  const render::PinholeView view = view_of(estimate);
+  const FaceEstimate& largest = estimate.faces[estimate.largest];
+  const float depth_m = options.depth_m.value_or(kNearer * depth_of(largest));
+  const Eigen::Vector3f size = model.box().sizes();
+  const double across_per_height = std::hypot(size.x(), size.z()) / std::max(1e-9F, size.y());
+  const double px_per_m = view.focal_px / static_cast<double>(depth_m);
+  const double room_px = kSize * std::min(view.width_px, view.height_px);
+  const double height_m = options.height_m ? static_cast<double>(*options.height_m) : room_px / std::max(1.0, across_per_height) / px_per_m;
+  // Its whole width in the picture, however it is turned.
+  const double half_px = 0.5 * across_per_height * height_m * px_per_m + kMargin * view.width_px;
+  const face::Box& box = largest.face.box;
+  const bool more_room_right = box.x + 0.5F * box.width < 0.5F * static_cast<float>(view.width_px);
+  const Eigen::Vector2d unless_told(more_room_right ? view.width_px - half_px : half_px, kBottom * view.height_px);
+  const Eigen::Vector2d at = options.at_px.value_or(unless_told);
+  return {insert::point_at(view, at.x(), at.y(), depth_m), static_cast<float>(height_m)};
+}
+
+Eigen::Vector3f up_of(const Estimate& estimate, const InsertionOptions& options) {
+  if (options.horizon_px) return insert::up_from_horizon(view_of(estimate), *options.horizon_px);
+  std::vector<Eigen::Vector3f> heads;
+  for (const FaceEstimate& face : estimate.faces) heads.emplace_back(face.face.camera_from_face.linear().col(1).cast<float>());
+  return insert::up_from_heads(heads);
+}
+
+const FaceEstimate& nearest_face(const Estimate& estimate, const Eigen::Vector3f& foot, std::size_t& index) {
+  const auto distance = [&](const FaceEstimate& face) { return (face.face.position_m().cast<float>() - foot).norm(); };
+  const auto nearest = std::min_element(estimate.faces.begin(), estimate.faces.end(),
+                                        [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
+  index = static_cast<std::size_t>(nearest - estimate.faces.begin());
+  return *nearest;
+}
+
+// The face's map; and if its strongest lights are lamps whose places are known, these beside a map that is without them.
+void light_scene(const Estimate& estimate, const Eigen::Vector3f& foot, insert::Scene& scene) {
+  std::size_t index = 0;
+  const FaceEstimate& face = nearest_face(estimate, foot, index);
+  scene.environment = face.environment;
+  if (estimate.faces.size() < 2) return;
+  const Room room = find_lamps(estimate);
+  std::vector<const lighting::Lamp*> of_light(face.lights.size(), nullptr);
+  for (const lighting::Lamp& lamp : room.lamps) {
+    for (const lighting::Sighting& seen : lamp.seen) {
+      if (lamp.near && seen.face == static_cast<int>(index)) of_light[static_cast<std::size_t>(seen.light)] = &lamp;
+    }
+  }
+  const auto end = std::find(of_light.begin(), of_light.end(), nullptr);
+  const int count = static_cast<int>(end - of_light.begin());
+  if (count == 0) return;
+  const SphereGrid grid(static_cast<int>(std::lround(std::sqrt(static_cast<double>(face.light.radiance.rows()) / 12))));
+  const Eigen::MatrixX3f rest =
+      lighting::without_main_lights(face.light.radiance, grid, count, {}, face.light.confidence);
+  scene.environment = env_map_from_grid(rest, grid, face.environment.width(), face.environment.height());
+  for (auto lamp = of_light.begin(); lamp != end; ++lamp) {
+    scene.lamps.push_back({.position = (*lamp)->position_m.cast<float>(),
+                           .radius_m = kLampRadiusM,
+                           .intensity = ((*lamp)->intensity * (*lamp)->colour).cast<float>()});
+  }
+}
+
+// What the faces' crops show of people: all that is not background.
+insert::Matte matte_of(const Estimate& estimate, const Image& given) {
+  insert::Matte matte{Image(estimate.photo_width, estimate.photo_height, 1), Image(estimate.photo_width, estimate.photo_height, 1)};
+  if (!given.empty()) {
+    matte.cover = given;
+    std::fill(matte.depth_m.values().begin(), matte.depth_m.values().end(), depth_of(estimate.faces[estimate.largest]));
+    return matte;
+  }
+  for (const FaceEstimate& face : estimate.faces) {
+    const face::Crop& crop = face.geometry.crop;
+    const Eigen::Vector2d low = crop.photo_from_crop(0, 0);
+    const Eigen::Vector2d high = crop.photo_from_crop(crop.width, crop.height);
+    const int right = std::min(estimate.photo_width, static_cast<int>(std::ceil(high.x())));
+    const int bottom = std::min(estimate.photo_height, static_cast<int>(std::ceil(high.y())));
+    for (int y = std::max(0, static_cast<int>(low.y())); y < bottom; ++y) {
+      for (int x = std::max(0, static_cast<int>(low.x())); x < right; ++x) {
+        const Eigen::Vector2d at = crop.crop_from_photo(x + 0.5, y + 0.5);
+        const int crop_x = std::clamp(static_cast<int>(at.x()), 0, crop.width - 1);
+        const int crop_y = std::clamp(static_cast<int>(at.y()), 0, crop.height - 1);
+        const auto region = static_cast<Region>(face.geometry.region(crop_x, crop_y));
+        const float depth = depth_of(face);
+        if (region == Region::kNone || (matte.cover(x, y) > 0 && matte.depth_m(x, y) < depth)) continue;
+        matte.cover(x, y) = 1;
+        matte.depth_m(x, y) = depth;
+      }
+    }
+  }
+  return matte;
+}
+
+}  // namespace
+
+std::string InsertionOptions::validate() const {
+  if (at_px && !at_px->allFinite()) return "The place in the photo must be two numbers.";
+  if (depth_m && !(*depth_m > 0.05F && *depth_m < 1000)) return "The distance must be from .05 to 1000 metres, found " + std::to_string(*depth_m) + ".";
+  if (height_m && !(*height_m > 1e-4F && *height_m < 1000)) return "The height must be from .0001 to 1000 metres, found " + std::to_string(*height_m) + ".";
+  if (!std::isfinite(turn_deg)) return "The turn must be a number of degrees.";
+  if (horizon_px && !std::isfinite(*horizon_px)) return "The horizon must be a number of pixels.";
+  return {};
+}
+
+render::PinholeView view_of(const Estimate& estimate) {
+  const face::Camera& camera = estimate.camera;
+  return {camera.focal_px, camera.centre_x_px, camera.centre_y_px, estimate.photo_width, estimate.photo_height};
+}
+
+insert::Scene scene_for(const io::Photo& photo, const Estimate& estimate, render::Model model, const InsertionOptions& options) {
+  if (const std::string fault = options.validate(); !fault.empty()) throw Error(ExitCode::kUsage, fault);
+  if (!options.matte.empty() && !(options.matte.same_size(photo.linear) && options.matte.channels() == 1)) {
+    throw Error(ExitCode::kUsage, "The matte must have the photo's size, " + std::to_string(photo.linear.width()) + " x " +
+                                      std::to_string(photo.linear.height()) + ", found " + std::to_string(options.matte.width()) +
+                                      " x " + std::to_string(options.matte.height()) + ".");
+  }
+  insert::Scene scene;
+  scene.view = view_of(estimate);
+  scene.up = up_of(estimate, options);
+  scene.ground = options.ground;
+  scene.model = std::move(model);
+  const Stand stand = stand_of(estimate, scene.model, options);
+  render::place(scene.model, {.height_m = stand.height_m,
+                              .foot = stand.foot,
+                              .up = scene.up,
+                              .turn = static_cast<float>(radians(options.turn_deg))});
+  light_scene(estimate, stand.foot, scene);
+  scene.matte = matte_of(estimate, options.matte);
+  return scene;
+}
+
+}  // namespace faceprobe::pipeline

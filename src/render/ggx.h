@@ -1,0 +1,37 @@
+#pragma once
+// The GGX lobe of rough mirrors (Walter et al. 2007) with Smith's height-correlated shadowing (Heitz 2014), its visible normals drawn as in Heitz 2018,
+// and what single scattering loses given back by one factor (Turquin 2019). All vectors in the surface's frame, z = normal.
+
+#include <Eigen/Core>
+#include <array>
+
+namespace faceprobe::render {
+
+class Ggx {
+ public:
+  explicit Ggx(float alpha);
+
+  // f(view, light) |light.z|, per steradian, for a mirror that reflects everything; 0 below the surface. Adds up to 1 over the lights.
+  float value(const Eigen::Vector3f& view, const Eigen::Vector3f& light) const;
+  // Per steradian of light, as draw() draws.
+  float density(const Eigen::Vector3f& view, const Eigen::Vector3f& light) const;
+  // A direction of light; may lie below the surface, where value() is 0.
+  Eigen::Vector3f draw(const Eigen::Vector3f& view, const Eigen::Vector2f& random) const;
+  // Share of the light that one scattering returns, by cosine of the viewer's angle.
+  float returned(float cosine) const;
+
+ private:
+  float lambda(float cosine) const;
+  float facets(const Eigen::Vector3f& half) const;
+  float single(const Eigen::Vector3f& view, const Eigen::Vector3f& light) const;
+
+  static constexpr int kAngles = 32;
+  float alpha2_;
+  float alpha_;
+  std::array<float, kAngles> returned_{};
+};
+
+// Exact Fresnel reflectance of a dielectric for unpolarised light; `index`: of the far side over the near one. 1 where nothing passes.
+float dielectric_fresnel(float cosine, float index);
+
+}  // namespace faceprobe::render

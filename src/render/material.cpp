@@ -1,0 +1,75 @@
+#include "faceprobe/render/material.h"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+namespace faceprobe::render {
+namespace {
+
+struct Preset {
+  std::string_view name;
+  MaterialKind kind;
+  std::array<float, 3> colour;
+  float roughness;
+  float index;
+};
+
+// Gold and silver: reflectances at normal incidence in linear Rec.709, table 9.2 of Akenine-Moeller et al., Real-Time Rendering, 4th
+// edition. 0.8 is fresh white paint, 0.9 the whitest of plastics. Clay (terracotta) and red are chosen by eye.
+constexpr std::array<Preset, 8> kPresets{{
+    {"diffuse", MaterialKind::kDiffuse, {0.8F, 0.8F, 0.8F}, 0, 1.5F},
+    {"plastic", MaterialKind::kPlastic, {0.9F, 0.9F, 0.9F}, 0, 1.362F},
+    {"silver", MaterialKind::kMetal, {0.972F, 0.960F, 0.915F}, 0.45F, 1.5F},
+    {"gold", MaterialKind::kMetal, {1.0F, 0.782F, 0.344F}, 0.25F, 1.5F},
+    {"mirror", MaterialKind::kMetal, {1, 1, 1}, 0, 1.5F},
+    {"glass", MaterialKind::kGlass, {1, 1, 1}, 0, 1.5F},
+    {"clay", MaterialKind::kDiffuse, {0.50F, 0.21F, 0.12F}, 0, 1.5F},
+    {"red", MaterialKind::kPlastic, {0.60F, 0.03F, 0.02F}, 0.2F, 1.5F},
+}};
+
+// Not so for NaN either.
+bool within(float value, float low, float high) { return value >= low && value <= high; }
+
+}  // namespace
+
+std::string Material::validate() const {
+  for (const float value : colour) {
+    if (!within(value, 0, 1)) return "A material's colour must be from 0 to 1, found " + std::to_string(value) + ".";
+  }
+  if (!within(roughness, 0, 1)) {
+    return "A material's roughness must be from 0 to 1, found " + std::to_string(roughness) + ".";
+  }
+  if (!within(index, 1, 3)) {
+    return "A material's index of refraction must be from 1 to 3, found " + std::to_string(index) + ".";
+  }
+  if (!texture.empty() && texture.channels() != 3) {
+    return "A material's texture must have 3 channels, found " + std::to_string(texture.channels()) + ".";
+  }
+  return {};
+}
+
+Material material_preset(std::string_view name) {
+  const auto* const found =
+      std::find_if(kPresets.begin(), kPresets.end(), [&](const Preset& p) { return p.name == name; });
+  if (found == kPresets.end()) throw std::invalid_argument("There is no material '" + std::string(name) + "'.");
+  Material material;
+  material.name = found->name;
+  material.kind = found->kind;
+  material.colour = Eigen::Vector3f(found->colour[0], found->colour[1], found->colour[2]);
+  material.roughness = found->roughness;
+  material.index = found->index;
+  return material;
+}
+
+const std::vector<std::string>& material_preset_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> list;
+    list.reserve(kPresets.size());
+    for (const Preset& preset : kPresets) list.emplace_back(preset.name);
+    return list;
+  }();
+  return names;
+}
+
+}  // namespace faceprobe::render
