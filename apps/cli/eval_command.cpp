@@ -28,6 +28,7 @@ int run(const EvalOptions& options) {
   if (options.stage == "geometry") return eval_geometry(options);
   if (options.stage == "shading") return eval_shading(options);
   if (options.stage == "relight") return eval_relight(options);
+  if (options.stage == "insert") return eval_insert(options);
   if (options.stage == "triangulate") return eval_triangulate(options);
   return eval_highlight(options);
 }
@@ -39,16 +40,16 @@ void add_eval(CLI::App& program, Action& action) {
   CLI::App* command = program.add_subcommand("eval", "measures a stage on data whose answer is known");
   command->add_option("STAGE", options->stage, "what to measure")
       ->required()
-      ->check(CLI::IsMember({"highlight", "geometry", "shading", "relight", "triangulate"}));
+      ->check(CLI::IsMember({"highlight", "geometry", "shading", "relight", "insert", "triangulate"}));
   command->add_option("--data", options->data, "folder that `faceprobe synth` wrote")->required();
   command->add_option("--weights", options->weights, "networks to measure beside what needs none: FILE or NAME=FILE");
   command->add_option("--samples", options->samples, "photos, spread evenly over the data")->capture_default_str();
   command->add_option("-o,--output", options->output, "folder for STAGE.csv, STAGE.json and a picture");
   command->add_option("--rows", options->rows, "photos in that picture")->capture_default_str()->check(CLI::Range(1, 200));
-  command->add_option("--object", options->object, "relight: OBJ file to put in the light; a sphere without");
+  command->add_option("--object", options->object, "relight: OBJ file to put in the light; a sphere without. insert: a shape or a model file");
   command->add_option("--scenes", options->scenes, "relight: CSV that names the maps indoor or outdoor");
   command->add_option("--training", options->training, "relight: data whose mean light is a row");
-  command->add_option("--prior-weights", options->prior, "relight, triangulate: weights of the light prior");
+  command->add_option("--prior-weights", options->prior, "relight, insert, triangulate: weights of the light prior");
   command->add_flag("--ablation", options->ablation, "relight: rows with normals or layers known");
   command->add_option("--device", options->device, "auto, cpu, cuda or cuda:N")->capture_default_str();
   command->add_option("--threads", options->threads, "0 = all processors")->capture_default_str();

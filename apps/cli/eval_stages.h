@@ -17,8 +17,8 @@ struct EvalOptions {
   int rows = 12;  // of pictures
   int samples = 100;
   int threads = 0;
-  // Of the stage relight.
-  std::string object;    // OBJ file; empty = a sphere
+  // Of the stages relight and insert.
+  std::string object;    // OBJ file; empty = a sphere. Of insert: a shape's name or a file
   std::string scenes;    // table of the maps' scenes; empty = not told apart
   std::string training;  // folder whose mean light is a row
   std::string prior;     // weights of the light prior; empty = those that come with the program
@@ -29,6 +29,7 @@ int eval_highlight(const EvalOptions& options);
 int eval_geometry(const EvalOptions& options);
 int eval_shading(const EvalOptions& options);
 int eval_relight(const EvalOptions& options);
+int eval_insert(const EvalOptions& options);
 int eval_triangulate(const EvalOptions& options);
 
 // NAME=FILE as that pair; of FILE alone its stem is the name.

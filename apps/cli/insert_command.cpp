@@ -1,17 +1,16 @@
 #include "commands.h"
-#include "faceprobe/assets/model.h"
 #include "faceprobe/core/color.h"
 #include "faceprobe/core/error.h"
 #include "faceprobe/io/picture_file.h"
 #include "faceprobe/pipeline/insertion.h"
 #include "faceprobe/pipeline/insertion_files.h"
 #include "faceprobe/render/shapes.h"
+#include "object_choice.h"
 #include "progress.h"
 #include "shared_options.h"
 
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -40,35 +39,6 @@ struct Options : SharedOptions {
   std::uint64_t seed = 1;
 };
 
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
-// A shape of ours by its name, else a file.
-render::Model object_of(const Options& options) {
-  const std::vector<std::string>& shapes = render::shape_names();
-  render::Model model;
-  if (std::find(shapes.begin(), shapes.end(), options.object) != shapes.end()) {
-    model = render::shape(options.object);
-  } else if (std::filesystem::path(options.object).extension().empty()) {
-    throw Error(ExitCode::kUsage, "There is no object called '" + options.object + "'; take one of " + listed(shapes) +
-                                      ", or name an OBJ, PLY, STL, glTF or GLB file.");
-  } else {
-    assets::LoadedModel loaded = assets::load_model(options.object);
-    for (const std::string& warning : loaded.warnings) spdlog::warn("{}: {}", options.object, warning);
-    model = std::move(loaded.model);
-  }
-  if (options.material.empty()) return model;
-  const std::vector<std::string>& presets = render::material_preset_names();
-  if (std::find(presets.begin(), presets.end(), options.material) == presets.end())
-    throw Error(ExitCode::kUsage, "There is no material called '" + options.material + "'; take one of " + listed(presets) + ".");
-  model.materials = {render::material_preset(options.material)};
-  for (render::TriangleMesh& mesh : model.meshes) mesh.material = 0;
-  return model;
-}
-
 Image matte_of(const Options& options) {
   if (options.matte.empty()) return {};
   const io::Photo file = io::load_photo(options.matte, options.limits);
@@ -83,7 +53,7 @@ Image matte_of(const Options& options) {
 int run(const Options& options) {
   if (options.inputs.size() != 1)
     throw Error(ExitCode::kUsage, "An object is put into one photo, found " + std::to_string(options.inputs.size()) + ".");
-  render::Model model = object_of(options);  // before the photo: a typing error should not cost an estimate
+  render::Model model = object_named(options.object, options.material);  // before the photo: a typing error should not cost an estimate
   pipeline::InsertionOptions where{.depth_m = options.depth_m,
                                    .height_m = options.height_m,
                                    .turn_deg = static_cast<float>(options.turn_deg),

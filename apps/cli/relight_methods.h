@@ -11,13 +11,15 @@
 namespace faceprobe::cli {
 
 struct RelightRows {
-  std::filesystem::path weights;   // of the network; empty = those that come with the program
-  std::filesystem::path prior;     // of the light prior; the same
-  std::filesystem::path training;  // data whose mean light is a row; empty = no such row
+  std::filesystem::path weights{};   // of the network; empty = those that come with the program
+  std::filesystem::path prior{};     // of the light prior; the same
+  std::filesystem::path training{};  // data whose mean light is a row; empty = no such row
   bool ablation = false;           // rows with a part of the estimate replaced by the truth
   int nside = 16;
   int threads = 0;
 };
 std::vector<eval::LightMethod> relight_methods(const RelightRows& rows);
+// Those of `faceprobe eval insert`, whose lights are in the photo's unit.
+std::vector<eval::LightMethod> insert_methods(const RelightRows& rows);
 
 }  // namespace faceprobe::cli
