@@ -50,6 +50,13 @@ Image matte_of(const Options& options) {
   return matte;
 }
 
+bool is_picture_file(const std::filesystem::path& output) {
+  std::string extension = output.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  return extension == ".png" || extension == ".exr";
+}
+
 int run(const Options& options) {
   if (options.inputs.size() != 1)
     throw Error(ExitCode::kUsage, "An object is put into one photo, found " + std::to_string(options.inputs.size()) + ".");
@@ -80,7 +87,7 @@ int run(const Options& options) {
   const insert::Insertion done = insert::insert_model(photo.linear, scene, how);
   progress.end();
   const std::filesystem::path output = options.output;
-  if (output.extension() == ".png" || output.extension() == ".exr") {
+  if (is_picture_file(output)) {
     io::write_picture(output, done.picture);
     spdlog::info("wrote {}", options.output);
   } else {

@@ -52,6 +52,7 @@ int main(int argc, char** argv) {
   cli::add_estimate(program, action);
   cli::add_separate(program, action);
   cli::add_triangulate(program, action);
+  cli::add_relight(program, action);
   cli::add_insert(program, action);
   cli::add_info(program, action);
 #ifdef FACEPROBE_HAS_SYNTH

@@ -17,10 +17,10 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 // Where the thing stands: shares of the picture and of the face's depth.
-constexpr double kAcross = 0.7;
+constexpr double kAcross = 0.6;
 constexpr double kDown = 0.9;
 constexpr float kNearer = 0.75F;
-constexpr float kSize = 0.4F;  // of its longer side, of the picture's width
+constexpr float kSize = 0.55F;  // of its longer side, of the picture's width
 constexpr float kChanged = 0.004F;  // least change of linear light that counts as such
 
 float face_depth_m(const SyntheticPhoto& photo) {
@@ -63,25 +63,12 @@ struct Squares {
   double rms() const { return count > 0 ? std::sqrt(sum / count) : kNaN; }
 };
 
-// The exposure that brings the thing of `found` nearest to that of `truth`, in linear light.
-float best_exposure(const insert::Insertion& truth, const insert::Insertion& found) {
-  double product = 0;
-  double square = 0;
-  const Image& a = truth.layers.object;
-  const Image& b = found.layers.object;
-  for (std::size_t i = 0; i < a.values().size(); ++i) {
-    if (i % 4 == 3) continue;
-    const double x = std::min(1.0F, a.data()[i]);
-    product += x * static_cast<double>(b.data()[i]);
-    square += squared(b.data()[i]);
-  }
-  return square > 0 ? static_cast<float>(product / square) : 0;
-}
-
-std::map<std::string, double> metrics_of(const Image& photo, const insert::Insertion& truth, const insert::Insertion& found) {
-  const float exposure = best_exposure(truth, found);
+// Errors of the picture over what the true one changes of the photo, with the thing's light times an exposure.
+struct Errors {
+  double whole, shadow;
+};
+Errors errors_of(const Image& photo, const insert::Insertion& truth, const insert::Insertion& found, float exposure) {
   Squares whole;
-  Squares scaled;
   Squares shadow;
   for (int y = 0; y < truth.box.height(); ++y) {
     for (int x = 0; x < truth.box.width(); ++x) {
@@ -90,15 +77,21 @@ std::map<std::string, double> metrics_of(const Image& photo, const insert::Inser
       const float* here = found.picture.pixel(truth.box.left + x, truth.box.top + y);
       const bool changed = std::abs(there[0] - before[0]) + std::abs(there[1] - before[1]) + std::abs(there[2] - before[2]) > 3 * kChanged;
       if (!changed) continue;
-      whole.add(there, here);
-      const bool on_model = truth.layers.object(x, y, 3) > 0;
-      if (!on_model) shadow.add(there, here);
       float exposed[3];
       for (int c = 0; c < 3; ++c) exposed[c] = here[c] + (exposure - 1) * found.layers.object(x, y, c);
-      scaled.add(there, exposed);
+      whole.add(there, exposed);
+      if (truth.layers.object(x, y, 3) == 0) shadow.add(there, here);
     }
   }
-  return {{"rmse", whole.rms()}, {"scaled", scaled.rms()}, {"shadow", shadow.rms()}};
+  return {whole.rms(), shadow.rms()};
+}
+
+std::map<std::string, double> metrics_of(const Image& photo, const insert::Insertion& truth, const insert::Insertion& found) {
+  const Errors as_it_is = errors_of(photo, truth, found, 1);
+  double scaled = as_it_is.whole;
+  for (int eighth_stop = -16; eighth_stop <= 16; ++eighth_stop)
+    scaled = std::min(scaled, errors_of(photo, truth, found, std::exp2(static_cast<float>(eighth_stop) / 8)).whole);
+  return {{"rmse", as_it_is.whole}, {"scaled", scaled}, {"shadow", as_it_is.shadow}};
 }
 
 void append_row(ByteImage& sheet, const std::vector<ByteImage>& cells) {

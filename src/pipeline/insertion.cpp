@@ -19,6 +19,7 @@ constexpr double kMargin = 0.02;
 constexpr double kBottom = 0.93;
 constexpr double kSize = 0.35;  // of its longer side, of the picture's shorter one
 constexpr float kNearer = 0.75F;
+constexpr double kFarPx = 1e6;  // beyond any picture, and within what floats bear
 constexpr float kLampRadiusM = 0.04F;  // a bulb with its shade: triangulation does not tell
 
 float depth_of(const FaceEstimate& face) { return static_cast<float>(-face.face.position_m().z()); }
@@ -37,11 +38,14 @@ Stand stand_of(const Estimate& estimate, const render::Model& model, const Inser
   const double px_per_m = view.focal_px / static_cast<double>(depth_m);
   const double room_px = kSize * std::min(view.width_px, view.height_px);
   const double height_m = options.height_m ? static_cast<double>(*options.height_m) : room_px / std::max(1.0, across_per_height) / px_per_m;
-  // Its whole width in the picture, however it is turned.
-  const double half_px = 0.5 * across_per_height * height_m * px_per_m + kMargin * view.width_px;
+  // Its whole width in the picture, however it is turned; and its front, which is nearer than the foot, spreads from the middle.
+  const double radius_px = 0.5 * across_per_height * height_m * px_per_m;
+  const double front = 1 - std::min(0.5, radius_px / view.focal_px);
   const face::Box& box = largest.face.box;
   const bool more_room_right = box.x + 0.5F * box.width < 0.5F * static_cast<float>(view.width_px);
-  const Eigen::Vector2d unless_told(more_room_right ? view.width_px - half_px : half_px, kBottom * view.height_px);
+  const double edge_px = more_room_right ? (1 - kMargin) * view.width_px : kMargin * view.width_px;
+  const Eigen::Vector2d unless_told(view.centre_x_px + front * (edge_px - view.centre_x_px) + (more_room_right ? -radius_px : radius_px),
+                                    view.centre_y_px + front * (kBottom * view.height_px - view.centre_y_px));
   const Eigen::Vector2d at = options.at_px.value_or(unless_told);
   return {insert::point_at(view, at.x(), at.y(), depth_m), static_cast<float>(height_m)};
 }
@@ -62,7 +66,7 @@ const FaceEstimate& nearest_face(const Estimate& estimate, const Eigen::Vector3f
 }
 
 // The face's map; and if its strongest lights are lamps whose places are known, these beside a map that is without them.
-void light_scene(const Estimate& estimate, const Eigen::Vector3f& foot, insert::Scene& scene) {
+void light_scene(const Estimate& estimate, const Eigen::Vector3f& foot, const lighting::MainLightOptions& main_lights, insert::Scene& scene) {
   std::size_t index = 0;
   const FaceEstimate& face = nearest_face(estimate, foot, index);
   scene.environment = face.environment;
@@ -79,7 +83,7 @@ void light_scene(const Estimate& estimate, const Eigen::Vector3f& foot, insert::
   if (count == 0) return;
   const SphereGrid grid(static_cast<int>(std::lround(std::sqrt(static_cast<double>(face.light.radiance.rows()) / 12))));
   const Eigen::MatrixX3f rest =
-      lighting::without_main_lights(face.light.radiance, grid, count, {}, face.light.confidence);
+      lighting::without_main_lights(face.light.radiance, grid, count, main_lights, face.light.confidence);
   scene.environment = env_map_from_grid(rest, grid, face.environment.width(), face.environment.height());
   for (auto lamp = of_light.begin(); lamp != end; ++lamp) {
     scene.lamps.push_back({.position = (*lamp)->position_m.cast<float>(),
@@ -121,11 +125,11 @@ insert::Matte matte_of(const Estimate& estimate, const Image& given) {
 }  // namespace
 
 std::string InsertionOptions::validate() const {
-  if (at_px && !at_px->allFinite()) return "The place in the photo must be two numbers.";
+  if (at_px && !(at_px->array().abs() <= kFarPx).all()) return "The place in the photo must be two numbers of pixels, none above a million.";
   if (depth_m && !(*depth_m > 0.05F && *depth_m < 1000)) return "The distance must be from .05 to 1000 metres, found " + std::to_string(*depth_m) + ".";
   if (height_m && !(*height_m > 1e-4F && *height_m < 1000)) return "The height must be from .0001 to 1000 metres, found " + std::to_string(*height_m) + ".";
   if (!std::isfinite(turn_deg)) return "The turn must be a number of degrees.";
-  if (horizon_px && !std::isfinite(*horizon_px)) return "The horizon must be a number of pixels.";
+  if (horizon_px && !(std::abs(*horizon_px) <= kFarPx)) return "The horizon must be a number of pixels, not above a million.";
   return {};
 }
 
@@ -141,6 +145,8 @@ insert::Scene scene_for(const io::Photo& photo, const Estimate& estimate, render
                                       std::to_string(photo.linear.height()) + ", found " + std::to_string(options.matte.width()) +
                                       " x " + std::to_string(options.matte.height()) + ".");
   }
+  if (!(model.box().sizes().y() > 0))
+    throw Error(ExitCode::kInput, "The object is flat: it has no height to be placed by. Stand it upright, along +y, in its file.");
   insert::Scene scene;
   scene.view = view_of(estimate);
   scene.up = up_of(estimate, options);
@@ -151,7 +157,7 @@ insert::Scene scene_for(const io::Photo& photo, const Estimate& estimate, render
                               .foot = stand.foot,
                               .up = scene.up,
                               .turn = static_cast<float>(radians(options.turn_deg))});
-  light_scene(estimate, stand.foot, scene);
+  light_scene(estimate, stand.foot, options.main_lights, scene);
   scene.matte = matte_of(estimate, options.matte);
   return scene;
 }

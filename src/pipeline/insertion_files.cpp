@@ -63,7 +63,7 @@ std::string insertion_json(const insert::Insertion& done, const insert::Scene& s
   json["blur_px"] = done.blur_px;
   json["grain_sigma"] = done.grain.sigma;
   json["complete"] = !done.stopped;
-  return json.dump(2) + "\n";
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::vector<std::filesystem::path> write_insertion(const std::filesystem::path& folder, const insert::Insertion& done,

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # Runs one case of the command's tests in a fresh folder; the cases are the functions case_* of the files beside this one.
-#   run_case.sh CASE FACEPROBE CMAKE DATA_FOLDER
+#   run_case.sh CASE FACEPROBE CMAKE DATA_FOLDER PICTURE_TOOL
 set -euo pipefail
 
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-name=$1 faceprobe=$2 cmake=$3 data=$4
+name=$1 faceprobe=$2 cmake=$3 data=$4 picture_tool=$5
 photo=$data/samples/grace_hopper.jpg  # public domain, one face
 # What the maps look like is tested elsewhere; here small ones do.
 quick=(--layer-px 64 --size 16 --iterations 2)
@@ -19,6 +19,7 @@ source "$here/cases_refusals.sh"
 source "$here/cases_results.sh"
 source "$here/cases_output.sh"
 source "$here/cases_synth.sh"
+source "$here/cases_insert.sh"
 
 declare -F "case_$name" >/dev/null || { echo "there is no case $name"; exit 2; }
 "case_$name"

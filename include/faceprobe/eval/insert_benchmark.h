@@ -28,8 +28,8 @@ struct InsertScores {
 };
 
 // `model`: any place and size; it is stood into the lower corner, nearer than the face. Metrics, in sRGB of 0..255 over what the true picture
-// changes of the photo: "rmse", of the whole; "scaled", after the exposure that suits the thing best, since a face does not tell how white its
-// skin is; "shadow", of the ground alone. Group: tone. Throws Error(kUsage) for options that do not validate.
+// changes of the photo: "rmse", of the whole; "scaled", after the exposure of the thing that suits it best, within two stops, since a face
+// does not tell how white its skin is; "shadow", of the ground alone. Group: tone. Throws Error(kUsage) for options that do not validate.
 InsertScores measure_insertion(const synth::ShardReader& faces, const std::vector<LightMethod>& methods, const render::Model& model,
                                const InsertBenchmark& options);
 

@@ -41,7 +41,7 @@ struct Scene {
 };
 
 struct Options {
-  render::RenderOptions render{.samples = 256, .noise = 0.02F, .clamp_indirect = 8};
+  render::RenderOptions render{.samples = 256, .noise = 0.03F, .clamp_indirect = 8};
   bool match_blur = true;   // of the photo's sharpest edges
   bool match_grain = true;
 

@@ -24,6 +24,7 @@ struct InsertionOptions {
   float turn_deg = 0;                    // about its own axis; positive turns its front to the right of the photo
   std::optional<double> horizon_px{};      // height of the horizon in the photo; else up is told by the heads
   bool ground = true;                    // whether it stands on something that takes its shadow
+  lighting::MainLightOptions main_lights{};  // those of the estimate
   Image matte{};                           // the photo's size, one channel: people in front of far things; empty = the faces' crops tell
 
   // Empty when usable, else a sentence that says which value is wrong.

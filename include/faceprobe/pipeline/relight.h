@@ -1,0 +1,28 @@
+#pragma once
+// A photo's own face in another light, from its layers: a preview of what a lamp more or less would do.
+//
+//   const pipeline::FaceEstimate& face = estimate.faces[estimate.largest];
+//   const Eigen::MatrixX3f dimmed = lighting::without_main_lights(face.light.radiance, SphereGrid(16), 1);
+//   pipeline::relight(photo.linear, face, dimmed);                    // the photo, its strongest light put out
+//
+// The diffuse layer is multiplied by what the new light gives each spot over what the old one gave, the highlight layer gets the difference of
+// the two lights' lobes; shadows are those of the face on itself, by its horizons. Only the face changes: hair, neck, clothes and room stay as they
+// are, so it is for small changes and small looks. Of light that the photo does not tell of, such as the far side of a face in the dark, nothing comes.
+
+#include "faceprobe/pipeline/estimate.h"
+
+namespace faceprobe::pipeline {
+
+struct RelightOptions {
+  int shading_px = 96;    // long side at which light is computed; it is carried to the crop smoothly
+  float most_gain = 6;    // of the diffuse layer: what is brightened beyond it is noise
+  int threads = 0;
+
+  std::string validate() const;
+};
+
+// Changes the face in `photo`, the estimate's picture at its own size, linear. `radiance`: cells of a SphereGrid x 3, in the unit of
+// face.light.radiance, and as many. Throws std::invalid_argument for other sizes and options that do not validate.
+void relight(Image& photo, const FaceEstimate& face, const Eigen::MatrixX3f& radiance, const RelightOptions& options = {});
+
+}  // namespace faceprobe::pipeline

@@ -1,0 +1,65 @@
+#include "faceprobe/pipeline/relight.h"
+
+#include "portrait.h"
+
+#include <gtest/gtest.h>
+
+namespace faceprobe::pipeline {
+namespace {
+
+double mean_of(const Image& photo, const face::Box& box, float from, float to) {
+  double sum = 0;
+  int count = 0;
+  for (int y = static_cast<int>(box.y + 0.4F * box.height); y < static_cast<int>(box.y + 0.7F * box.height); ++y) {
+    for (int x = static_cast<int>(box.x + from * box.width); x < static_cast<int>(box.x + to * box.width); ++x, ++count)
+      sum += photo(x, y, 0) + photo(x, y, 1) + photo(x, y, 2);
+  }
+  return sum / count;
+}
+
+class Relight : public ::testing::Test {
+ protected:
+  const Estimate& estimate = testing::portrait_estimate();
+  const FaceEstimate& face = estimate.faces[estimate.largest];
+  const Image photo = testing::portrait().linear;
+};
+
+TEST_F(Relight, TheSameLightLeavesThePhoto) {
+  Image picture = photo;
+  relight(picture, face, face.light.radiance);
+  for (std::size_t i = 0; i < photo.values().size(); ++i)
+    ASSERT_NEAR(picture.data()[i], photo.data()[i], 2e-3F);  // highlights are taken off and put on again by float sums
+}
+
+TEST_F(Relight, HalfTheLightHalvesTheFaceAndNothingElse) {
+  Image picture = photo;
+  relight(picture, face, 0.5F * face.light.radiance);
+  const face::Box& box = face.face.box;
+  // The least share of both lights that keeps the dark out, 2 %, and highlights that are not all the lobe's.
+  EXPECT_NEAR(mean_of(picture, box, 0.3F, 0.7F) / mean_of(photo, box, 0.3F, 0.7F), 0.5, 0.06);
+  EXPECT_EQ(picture(2, 2, 0), photo(2, 2, 0));
+  EXPECT_EQ(picture(photo.width() - 3, photo.height() - 3, 1), photo(photo.width() - 3, photo.height() - 3, 1));
+}
+
+TEST_F(Relight, ALampAtTheRightLightsTheRight) {
+  const SphereGrid grid(static_cast<int>(std::lround(std::sqrt(static_cast<double>(face.light.radiance.rows()) / 12))));
+  Eigen::MatrixX3f light = Eigen::MatrixX3f::Constant(grid.cell_count(), 3, 0.05F * face.light.radiance.mean());
+  for (int j = 0; j < grid.cell_count(); ++j) {
+    if (grid.direction(j).dot(Eigen::Vector3f(0.94F, 0, 0.34F)) > 0.9F) light.row(j).setConstant(20 * face.light.radiance.mean());
+  }
+  Image picture = photo;
+  relight(picture, face, light);
+  const face::Box& box = face.face.box;
+  const double right = mean_of(picture, box, 0.65F, 0.85F) / mean_of(photo, box, 0.65F, 0.85F);
+  const double left = mean_of(picture, box, 0.15F, 0.35F) / mean_of(photo, box, 0.15F, 0.35F);
+  EXPECT_GT(right, 1.5 * left);
+}
+
+TEST_F(Relight, RefusesWhatDoesNotFit) {
+  Image picture = photo;
+  EXPECT_THROW(relight(picture, face, Eigen::MatrixX3f::Ones(12, 3)), std::invalid_argument);
+  EXPECT_THROW(relight(picture, face, face.light.radiance, {.shading_px = 2}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace faceprobe::pipeline
