@@ -6,12 +6,13 @@
 #   bench/results.sh --data DIR --only direction [BUILD_DIR]     one of: best_case separation highlight highlight_makehuman
 #                                                                highlight_photos highlight_people highlight_net geometry
 #                                                                shading relight region_photos surface_photos robustness
-#                                                                direction speed
+#                                                                direction speed insert insert_cycles triangulate
 #                                                                synth_cycles synth_speed synth_rate
 #   bench/results.sh --data DIR --faces FACES ...                for highlight, highlight_people, geometry and shading: the dev
 #                                                                faces of docs/training.md; they are left as they are without them
 #   bench/results.sh --data DIR --training FACES ...             for highlight_people and relight: the training faces, likewise
-#   bench/results.sh --data DIR --light FACES ...                for relight: the faces for it, likewise
+#   bench/results.sh --data DIR --light FACES ...                for relight and insert: the faces for it, likewise
+#   bench/results.sh --data DIR --groups FACES ...               for triangulate: groups of faces, likewise
 #
 # BUILD_DIR (build/test) is built with FACEPROBE_BUILD_BENCH=ON, and FACEPROBE_TRAIN=ON for those of highlight layers; speed and
 # synth_rate measure the command of build/release, which scripts/build.sh makes. Ends with 1 when a benchmark misses its bar; its section is
@@ -20,11 +21,12 @@ set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 sections=(best_case separation highlight highlight_makehuman highlight_photos highlight_people highlight_net geometry shading
-          relight region_photos surface_photos robustness direction speed synth_cycles synth_speed synth_rate)
+          relight region_photos surface_photos robustness direction speed insert insert_cycles triangulate synth_cycles synth_speed synth_rate)
 data=
 faces=
 training=
 light=
+groups=
 only=
 build=$root/build/test
 while [ $# -gt 0 ]; do
@@ -33,8 +35,9 @@ while [ $# -gt 0 ]; do
     --faces) faces=${2:?--faces takes a folder}; shift ;;
     --training) training=${2:?--training takes a folder}; shift ;;
     --light) light=${2:?--light takes a folder}; shift ;;
+    --groups) groups=${2:?--groups takes a folder}; shift ;;
     --only) only=${2:?--only takes a section}; shift ;;
-    -*) echo "unknown option $1; there are --data, --faces, --training, --light and --only." >&2; exit 2 ;;
+    -*) echo "unknown option $1; there are --data, --faces, --training, --light, --groups and --only." >&2; exit 2 ;;
     *) build=$1 ;;
   esac
   shift
@@ -65,6 +68,9 @@ title_of() {
     robustness) echo "Many kinds of photo" ;;
     direction) echo "Known light directions on real faces" ;;
     speed) echo "Time and memory" ;;
+    insert) echo "Inserted objects against the same in the true light" ;;
+    insert_cycles) echo "Drawn objects against Blender's Cycles" ;;
+    triangulate) echo "Lamps placed from several faces" ;;
     synth_cycles) echo "Synthetic faces against Blender's Cycles" ;;
     synth_speed) echo "Light on synthetic faces: cost by number of maps" ;;
     synth_rate) echo "Synthetic faces: samples a second" ;;
@@ -84,6 +90,9 @@ command_of() {
     highlight_makehuman) echo "bench/makehuman.sh --data DIR" ;;
     highlight_people) echo "bench/people.sh --data DIR --faces FACES --training TRAINING" ;;
     speed) echo "bench/speed.sh" ;;
+    insert) echo "BUILD/bin/faceprobe eval insert --data LIGHT --samples 50" ;;
+    insert_cycles) echo "BUILD/bin/bench_insert_cycles --object DIR/objects/stanford-bunny.obj --maps DIR/hdri/dev --samples 512" ;;
+    triangulate) echo "BUILD/bin/faceprobe eval triangulate --data GROUPS" ;;
     synth_speed) echo "BUILD/bin/bench_synth_speed" ;;
     synth_rate) echo "bench/synth_rate.sh --data DIR" ;;
     *) echo "BUILD/bin/bench_$1 --data DIR" ;;
@@ -103,6 +112,9 @@ run_section() {
     highlight_makehuman) "$root/bench/makehuman.sh" --data "$data" "$build" ;;
     highlight_people) "$root/bench/people.sh" --data "$data" --faces "$faces" --training "$training" "$build" ;;
     speed) "$root/bench/speed.sh" ;;
+    insert) "$build/bin/faceprobe" eval insert --data "$light" --samples 50 ;;
+    insert_cycles) "$build/bin/bench_insert_cycles" --object "$data/objects/stanford-bunny.obj" --maps "$data/hdri/dev" --samples 512 ;;
+    triangulate) "$build/bin/faceprobe" eval triangulate --data "$groups" ;;
     synth_speed) "$build/bin/bench_synth_speed" ;;
     synth_rate) "$root/bench/synth_rate.sh" --data "$data" ;;
     *) "$build/bin/bench_$1" --data "$data" ;;
@@ -142,6 +154,10 @@ for section in "${sections[@]}"; do
     echo "results: relight is left as it is; --light and --training name the synthetic faces of docs/training.md." >&2
     continue
   fi
+  if { [ "$section" = insert ] && [ -z "$light" ]; } || { [ "$section" = triangulate ] && [ -z "$groups" ]; }; then
+    echo "results: $section is left as it is; --light and --groups name the synthetic faces of docs/training.md." >&2
+    continue
+  fi
   echo "results: $section" >&2
   code=0
   run_section "$section" >"$work/output" || code=$?
@@ -155,7 +171,7 @@ for section in "${sections[@]}"; do
   {
     printf '## %s\n\n`%s`, on %s.\n\n' "$(title_of "$section")" "$(command_of "$section")" "$(machine)"
     # Nobody's folders are published.
-    sed -e "s|$data|DIR|g" -e "s|$build|BUILD|g" ${faces:+-e "s|$faces|FACES|g"} ${training:+-e "s|$training|TRAINING|g"} ${light:+-e "s|$light|LIGHT|g"} \
+    sed -e "s|$data|DIR|g" -e "s|$build|BUILD|g" ${faces:+-e "s|$faces|FACES|g"} ${training:+-e "s|$training|TRAINING|g"} ${light:+-e "s|$light|LIGHT|g"} ${groups:+-e "s|$groups|GROUPS|g"} \
       -e "s|$root/||g" "$work/output"
   } | cat -s >"$work/$section"
 done

@@ -70,7 +70,7 @@ void add_lamps(const std::string& method, const std::string& sample, const std::
   const std::vector<int> match = match_lamps(truth, found, options.most_match_m);
   int matched = 0;
   for (std::size_t t = 0; t < truth.size(); ++t) {
-    std::map<std::string, double> metrics = {{"lamp_m", kNaN}, {"covered", kNaN}, {"found", 0}};
+    std::map<std::string, double> metrics = {{"lamp_m", kNaN}, {"covered", kNaN}, {"found", 0}, {"within", 0}};
     if (match[t] >= 0) {
       ++matched;
       const lighting::Lamp& lamp = found[static_cast<std::size_t>(match[t])];
@@ -78,6 +78,7 @@ void add_lamps(const std::string& method, const std::string& sample, const std::
       metrics["lamp_m"] = off.norm();
       metrics["covered"] = off.dot(lamp.covariance_m2.inverse() * off) < kChiSquare95 ? 1 : 0;
       metrics["found"] = 1;
+      metrics["within"] = off.norm() <= options.near_m ? 1 : 0;
     }
     table.add({method, sample + " lamp " + std::to_string(t + 1), {}, metrics});
   }
@@ -90,6 +91,7 @@ void add_lamps(const std::string& method, const std::string& sample, const std::
 
 std::string RoomBenchmark::validate() const {
   if (samples < 1 || samples > 1'000'000) return "samples is " + std::to_string(samples) + "; allowed is 1 to 1000000.";
+  if (!(near_m > 0 && near_m < 1e6)) return "near_m must be positive.";
   if (!(most_match_m > 0 && most_match_m < 1e6)) return "most_match_m must be positive.";
   return triangulate.validate();
 }
@@ -107,16 +109,16 @@ ScoreTable measure_rooms(const synth::ShardReader& groups, const LookAtGroup& lo
       const std::vector<int> match = match_faces(faces, photo.view, photo.input().camera);
       add_lamps("faces as found", sample, photo.sample.lamps, lighting::triangulate(faces, options.triangulate),
                 options, table);
-      for (std::size_t f = 0; f < faces.size(); ++f) {
-        if (match[f] < 0) continue;
-        const Eigen::Vector3d truth =
-            photo.view.faces[static_cast<std::size_t>(match[f])].camera_from_head.translation().cast<double>();
-        table.add({"faces as found",
-                   sample + " face " + std::to_string(f + 1),
-                   {},
-                   {{"face_m", (faces[f].position_m - truth).norm()}}});
-        faces[f].position_m = truth;
-        faces[f].position_error_m = 1e-3;
+      for (std::size_t t = 0; t < photo.view.faces.size(); ++t) {
+        const auto f = static_cast<std::size_t>(std::ranges::find(match, static_cast<int>(t)) - match.begin());
+        std::map<std::string, double> metrics = {{"face_m", kNaN}, {"face_found", 0}};
+        if (f < faces.size()) {
+          const Eigen::Vector3d truth = photo.view.faces[t].camera_from_head.translation().cast<double>();
+          metrics = {{"face_m", (faces[f].position_m - truth).norm()}, {"face_found", 1}};
+          faces[f].position_m = truth;
+          faces[f].position_error_m = 1e-3;
+        }
+        table.add({"faces as found", sample + " face " + std::to_string(t + 1), {}, metrics});
       }
       add_lamps("faces known", sample, photo.sample.lamps, lighting::triangulate(faces, options.triangulate), options,
                 table);

@@ -7,6 +7,22 @@
 
 namespace faceprobe::pipeline {
 
+namespace {
+
+const Eigen::Vector3f kLuminance(0.2126F, 0.7152F, 0.0722F);
+
+// The same brightness in broad colours: of these the prior knows a blue sky over a brown ground; cell by cell they are noise, and where no skin
+// looks the noise would stay.
+Eigen::MatrixX3f broadly_coloured(const Eigen::MatrixX3f& light, const SphereGrid& grid) {
+  const SphereGrid broad(2);  // cells of 29 degrees
+  Eigen::MatrixX3f out = grid_from_grid(grid_from_grid(light, grid, broad), broad, grid);
+  const Eigen::VectorXf scale = (light * kLuminance).array() / (out * kLuminance).array().max(1e-9F);
+  for (Eigen::Index j = 0; j < out.rows(); ++j) out.row(j) *= scale[j];
+  return out;
+}
+
+}  // namespace
+
 std::optional<net::LightPrior> load_prior(const EstimateOptions& options) {
   if (!options.asks_prior()) return std::nullopt;
   const std::filesystem::path path =
@@ -26,7 +42,8 @@ Eigen::MatrixX3f expected_light(const net::LightPrior& prior, const lighting::Ob
   const Eigen::MatrixX3f light = prior.radiance(features);
   const Eigen::MatrixX3f other = lighting::mirrored_cells(prior.radiance(lighting::mirrored_features(features)));
   const Eigen::MatrixX3f mean = light.cwiseProduct(other).cwiseSqrt();
-  return grid_from_grid(mean, SphereGrid(lighting::kFeatureNside), SphereGrid(nside));
+  const SphereGrid coarse(lighting::kFeatureNside);
+  return grid_from_grid(broadly_coloured(mean, coarse), coarse, SphereGrid(nside));
 }
 
 }  // namespace faceprobe::pipeline

@@ -22,20 +22,6 @@ SphereGrid grid_of(const Eigen::MatrixX3f& cells) {
   return SphereGrid(static_cast<int>(std::lround(std::sqrt(static_cast<double>(cells.rows()) / 12))));
 }
 
-// Means over the cells of a coarser grid.
-Eigen::MatrixX3f coarser(const Eigen::MatrixX3f& cells, const SphereGrid& coarse) {
-  const SphereGrid fine = grid_of(cells);
-  Eigen::MatrixX3f sum = Eigen::MatrixX3f::Zero(coarse.cell_count(), 3);
-  Eigen::VectorXf count = Eigen::VectorXf::Zero(coarse.cell_count());
-  for (int j = 0; j < fine.cell_count(); ++j) {
-    const int at = coarse.cell_of(fine.direction(j));
-    sum.row(at) += cells.row(j);
-    count[at] += 1;
-  }
-  for (int j = 0; j < coarse.cell_count(); ++j) sum.row(j) /= std::max(1.0F, count[j]);
-  return sum;
-}
-
 // Every pixel of a small copy of the face, as rows for the transport.
 struct SmallFace {
   Image normal, position, view;
@@ -138,8 +124,8 @@ Change change_of(const FaceEstimate& face, const Eigen::MatrixX3f& radiance, con
   const SmallFace small = small_face(face.geometry, window);
   const SphereGrid grid(kNside);
   const lighting::Transport transport = lighting::build_transport(rows_of(small, options.threads), grid, options.threads);
-  const Eigen::MatrixX3f before = coarser(face.light.radiance, grid);
-  const Eigen::MatrixX3f after = coarser(radiance, grid);
+  const Eigen::MatrixX3f before = grid_from_grid(face.light.radiance, grid_of(face.light.radiance), grid);
+  const Eigen::MatrixX3f after = grid_from_grid(radiance, grid_of(radiance), grid);
   const Eigen::MatrixX3f old_shading = transport.diffuse * before;
   const Eigen::MatrixX3f new_shading = transport.diffuse * after;
   const float floor = std::max(1e-9F, kLeastShare * old_shading.mean());

@@ -26,6 +26,7 @@ Ggx::Ggx(float alpha) : alpha2_(alpha * alpha), alpha_(alpha) {
       if (light.z() > 0) sum += single(view, light) / density(view, light);
     }
     returned_[static_cast<std::size_t>(i)] = static_cast<float>(sum / kSamples);
+    mean_returned_ += 2 * cosine * returned_[static_cast<std::size_t>(i)] / kAngles;
   }
 }
 
@@ -53,7 +54,10 @@ float Ggx::single(const Eigen::Vector3f& view, const Eigen::Vector3f& light) con
 }
 
 float Ggx::value(const Eigen::Vector3f& view, const Eigen::Vector3f& light) const {
-  return single(view, light) / returned(view.z());
+  if (view.z() <= 0 || light.z() <= 0) return 0;
+  const float lost = 1 - returned(view.z());
+  const float wide = lost * (1 - returned(light.z())) / (kPi32 * std::max(1e-6F, 1 - mean_returned_)) * light.z();
+  return single(view, light) * (1 + 0.5F * lost / returned(view.z())) + 0.5F * wide;
 }
 
 float Ggx::density(const Eigen::Vector3f& view, const Eigen::Vector3f& light) const {

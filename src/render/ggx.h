@@ -1,6 +1,7 @@
 #pragma once
 // The GGX lobe of rough mirrors (Walter et al. 2007) with Smith's height-correlated shadowing (Heitz 2014), its visible normals drawn as in Heitz 2018,
-// and what single scattering loses given back by one factor (Turquin 2019). All vectors in the surface's frame, z = normal.
+// and what single scattering loses given back: half of it by a factor on the lobe (Turquin 2019), half spread wide (Kulla & Conty 2017). Against a
+// random walk on the facets (Heitz et al. 2016) the one is too narrow and the other too wide. All vectors in the surface's frame, z = normal.
 
 #include <Eigen/Core>
 #include <array>
@@ -13,6 +14,8 @@ class Ggx {
 
   // f(view, light) |light.z|, per steradian, for a mirror that reflects everything; 0 below the surface. Adds up to 1 over the lights.
   float value(const Eigen::Vector3f& view, const Eigen::Vector3f& light) const;
+  // The same of light that one facet alone has mirrored, which is less.
+  float single(const Eigen::Vector3f& view, const Eigen::Vector3f& light) const;
   // Per steradian of light, as draw() draws.
   float density(const Eigen::Vector3f& view, const Eigen::Vector3f& light) const;
   // A direction of light; may lie below the surface, where value() is 0.
@@ -23,12 +26,12 @@ class Ggx {
  private:
   float lambda(float cosine) const;
   float facets(const Eigen::Vector3f& half) const;
-  float single(const Eigen::Vector3f& view, const Eigen::Vector3f& light) const;
 
   static constexpr int kAngles = 32;
   float alpha2_;
   float alpha_;
   std::array<float, kAngles> returned_{};
+  float mean_returned_ = 0;  // over the angles, weighed by their cosines
 };
 
 // Exact Fresnel reflectance of a dielectric for unpolarised light; `index`: of the far side over the near one. 1 where nothing passes.

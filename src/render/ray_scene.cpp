@@ -55,6 +55,16 @@ Eigen::Vector3f texel(const Image& texture, const Eigen::Vector2f& uv) {
          fy * ((1 - fx) * at(x0, y0 + 1) + fx * at(x0 + 1, y0 + 1));
 }
 
+// A smooth normal that mirrors the viewer into the surface, where only a black rim would be, is bent until it mirrors along it, as Cycles does.
+Eigen::Vector3f mirroring_outwards(const Eigen::Vector3f& normal, const Eigen::Vector3f& face, const Eigen::Vector3f& view) {
+  constexpr float kLeastHeight = 0.01F;
+  const Eigen::Vector3f mirrored = 2 * normal.dot(view) * normal - view;
+  const float least = std::min(0.9F * face.dot(view), kLeastHeight);
+  const float height = mirrored.dot(face);
+  if (height >= least) return normal;
+  return ((mirrored + (least - height) * face).normalized() + view).normalized();
+}
+
 Material ground_material(const Ground& ground) {
   return {.name = "ground", .kind = MaterialKind::kDiffuse, .colour = ground.albedo};
 }
@@ -142,6 +152,8 @@ bool RayScene::hit(const Eigen::Vector3f& origin, const Eigen::Vector3f& directi
   // Of a surface that its smooth normals turn away from the viewer, the silhouette is seen.
   const float cosine = -normal.dot(direction);
   if (cosine < kLeastViewCosine) normal = (normal - (kLeastViewCosine - cosine) * direction).normalized();
+  const MaterialKind kind = finish.material.kind;
+  if (kind == MaterialKind::kMetal || kind == MaterialKind::kPlastic) normal = mirroring_outwards(normal, out.face, -direction);
   Eigen::Vector3f colour = finish.material.colour;
   if (!finish.material.texture.empty() && mesh.uv.rows() > 0) {
     Eigen::Vector2f uv = Eigen::Vector2f::Zero();

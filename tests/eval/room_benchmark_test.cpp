@@ -75,6 +75,8 @@ TEST(RoomBenchmark, FacesOffByAStepPutTheLampOffByThatStep) {
     EXPECT_NEAR(mean(table, "lamp_m", "faces as found"), shift.norm(), 0.02);
     EXPECT_NEAR(mean(table, "lamp_m", "faces known"), 0, 0.02);
     EXPECT_EQ(mean(table, "found", "faces known"), 1);
+    EXPECT_EQ(mean(table, "within", "faces known"), 1);
+    EXPECT_EQ(mean(table, "face_found", "faces as found"), 1);
     EXPECT_EQ(mean(table, "covered", "faces as found"), 1);
     EXPECT_EQ(mean(table, "invented", "faces as found"), 0);
   }
@@ -87,6 +89,9 @@ TEST(RoomBenchmark, WhatIsNotFoundIsMissingAndWhatIsNotThereIsInvented) {
       measure_rooms(groups, [](const PhotoInput&) { return std::vector<lighting::FaceLights>(); }, {.samples = 1});
   EXPECT_EQ(blind.summary("lamp_m", {.method = "faces as found"}).count, 0U);
   EXPECT_EQ(mean(blind, "found", "faces as found"), 0);
+  EXPECT_EQ(mean(blind, "within", "faces as found"), 0);
+  EXPECT_EQ(mean(blind, "face_found", "faces as found"), 0);
+  EXPECT_EQ(blind.summary("face_m", {.method = "faces as found"}).count, 0U);
   const ScoreTable ghost =
       measure_rooms(groups,
                     [](const PhotoInput&) {

@@ -22,14 +22,16 @@ using LookAtGroup = std::function<std::vector<lighting::FaceLights>(const PhotoI
 struct RoomBenchmark {
   int samples = 100;  // spread evenly over the data set; those with fewer than two faces are left out
   lighting::TriangulateOptions triangulate = {};
+  double near_m = 0.4;      // what counts as "within"
   double most_match_m = 2;  // a lamp that is found is one of the true ones if it is nearer than this
   std::function<void(int done, int total)> progress = {};
 
   std::string validate() const;
 };
 
-// Rows: one a photo and lamp, or face, methods "faces as found" and "faces known". Metrics: face_m (distance of a face from where it is, of
-// faces that were found), lamp_m (of a lamp, NaN where it was not found), found (1 or 0), covered (1 where the stated ellipsoid of 95 % holds the truth, else
+// Rows: one a photo and lamp, or face, methods "faces as found" and "faces known". Metrics: face_m (distance of a face from where it is, NaN
+// where it was not found), face_found (1 or 0, of the faces shown), lamp_m (of a lamp, NaN where it was not found), found (1 or 0), within
+// (1 where it was found and no further off than near_m, of all lamps), covered (1 where the stated ellipsoid of 95 % holds the truth, else
 // 0), invented (near lamps in the photo that are none of the true ones). Throws Error(kUsage) for options that do not validate.
 ScoreTable measure_rooms(const synth::ShardReader& groups, const LookAtGroup& look, const RoomBenchmark& options);
 

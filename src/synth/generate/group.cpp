@@ -15,6 +15,7 @@ constexpr int kMostPeople = 4;
 constexpr double kShoulders =
     0.52;  // metres between the middles of neighbours at least: they do not cut through each other
 constexpr float kFaceRoom = 0.16F;      // metres around an origin between the eyes that belong to the face
+constexpr float kMostTilt = 0.17F;      // radians, of the camera upwards
 constexpr float kWaistY = -0.55F;       // below the eyes, where bodies are about to end
 constexpr float kHeadMiddleY = -0.04F;  // from between the eyes down to the middle of the face
 
@@ -90,7 +91,8 @@ View draw_scene_view(std::span<const Person> people, const Recipe& recipe, int n
   result.camera.width_px = result.camera.height_px = recipe.size_px;
   result.camera.centre_px.setConstant(0.5F * static_cast<float>(recipe.size_px));
 
-  // As long a lens as keeps every face inside, with some air, and tilted up until nobody's cut-off body is seen below.
+  // As long a lens as keeps every face inside, with some air, and tilted up until nobody's cut-off body is seen below, as far
+  // as that goes.
   const auto air = static_cast<float>(random.between(1.05, 1.25));
   const Eigen::Vector3f from_camera = result.camera.camera_from_scene.translation();
   const Eigen::Matrix3f level = result.camera.camera_from_scene.linear();
@@ -110,7 +112,8 @@ View draw_scene_view(std::span<const Person> people, const Recipe& recipe, int n
     }
     const float half = widest * air;
     result.camera.focal_px = 0.5F * static_cast<float>(recipe.size_px) / half;
-    if (pass < 2) tilt += std::max(0.0F, std::atan(half) + std::atan(highest_waist));
+    // More tilt asks for a wider view, and that for more tilt: people near the camera would end small at the edge.
+    if (pass < 2) tilt = std::min(kMostTilt, tilt + std::max(0.0F, std::atan(half) + std::atan(highest_waist)));
   }
   result.camera_from_level = result.camera.camera_from_scene.linear();
   return result;
