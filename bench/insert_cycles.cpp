@@ -22,7 +22,7 @@ int main(int argc, char** argv) {
   std::vector<std::string> materials;
   app.add_option("--object", options.object, "the thing: OBJ, PLY, glTF or STL, +y up; a pot without it")
       ->check(CLI::ExistingFile);
-  app.add_option("--maps", options.maps, "folder of maps, DATA/hdri/dev; one made in code alone without it")
+  app.add_option("--maps", options.maps, "folder of maps, DATA/hdri/dev; those made in code alone without it")
       ->check(CLI::ExistingDirectory);
   app.add_option("--map-count", options.map_count, "how many of its maps")->check(CLI::Range(0, 3))->capture_default_str();
   app.add_option("--materials", materials, "some of diffuse, metal, mirror, plastic, glass; all without it")

@@ -91,7 +91,7 @@ command_of() {
     highlight_people) echo "bench/people.sh --data DIR --faces FACES --training TRAINING" ;;
     speed) echo "bench/speed.sh" ;;
     insert) echo "BUILD/bin/faceprobe eval insert --data LIGHT --samples 50" ;;
-    insert_cycles) echo "BUILD/bin/bench_insert_cycles --object DIR/objects/stanford-bunny.obj --maps DIR/hdri/dev --samples 512" ;;
+    insert_cycles) echo "BUILD/bin/bench_insert_cycles --object DIR/objects/stanford-bunny.obj --maps DIR/hdri/dev --map-count 1 --size 128 --samples 1024 --our-samples 2048" ;;
     triangulate) echo "BUILD/bin/faceprobe eval triangulate --data GROUPS" ;;
     synth_speed) echo "BUILD/bin/bench_synth_speed" ;;
     synth_rate) echo "bench/synth_rate.sh --data DIR" ;;
@@ -113,7 +113,8 @@ run_section() {
     highlight_people) "$root/bench/people.sh" --data "$data" --faces "$faces" --training "$training" "$build" ;;
     speed) "$root/bench/speed.sh" ;;
     insert) "$build/bin/faceprobe" eval insert --data "$light" --samples 50 ;;
-    insert_cycles) "$build/bin/bench_insert_cycles" --object "$data/objects/stanford-bunny.obj" --maps "$data/hdri/dev" --samples 512 ;;
+    insert_cycles) "$build/bin/bench_insert_cycles" --object "$data/objects/stanford-bunny.obj" --maps "$data/hdri/dev" --map-count 1 --size 128 --samples 1024 \
+        --our-samples 2048 ;;
     triangulate) "$build/bin/faceprobe" eval triangulate --data "$groups" ;;
     synth_speed) "$build/bin/bench_synth_speed" ;;
     synth_rate) "$root/bench/synth_rate.sh" --data "$data" ;;

@@ -50,17 +50,12 @@ Image matte_of(const Options& options) {
   return matte;
 }
 
-bool is_picture_file(const std::filesystem::path& output) {
-  std::string extension = output.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-  return extension == ".png" || extension == ".exr";
-}
-
 int run(const Options& options) {
   if (options.inputs.size() != 1)
     throw Error(ExitCode::kUsage, "An object is put into one photo, found " + std::to_string(options.inputs.size()) + ".");
-  render::Model model = object_named(options.object, options.material);  // before the photo: a typing error should not cost an estimate
+  // Before the photo: a typing error should not cost an estimate.
+  const bool picture_alone = is_picture_output(options.output);
+  render::Model model = object_named(options.object, options.material);
   pipeline::InsertionOptions where{.depth_m = options.depth_m,
                                    .height_m = options.height_m,
                                    .turn_deg = static_cast<float>(options.turn_deg),
@@ -87,7 +82,7 @@ int run(const Options& options) {
   const insert::Insertion done = insert::insert_model(photo.linear, scene, how);
   progress.end();
   const std::filesystem::path output = options.output;
-  if (is_picture_file(output)) {
+  if (picture_alone) {
     io::write_picture(output, done.picture);
     spdlog::info("wrote {}", options.output);
   } else {
@@ -104,19 +99,19 @@ void add_insert(CLI::App& program, Action& action) {
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand("insert", "a virtual object into a photo, in the light of the faces");
   add_inputs(*command, *options);
-  command->add_option("-o,--output", options->output, "folder for everything, or NAME.png/.exr for the picture alone")->capture_default_str();
+  command->add_option("-o,--output", options->output, "folder for everything, or NAME.png/.exr/.hdr for the picture alone")->capture_default_str();
   command->add_option("--object", options->object, listed(render::shape_names()) + ", or an OBJ, PLY, STL, glTF or GLB file")
       ->capture_default_str();
   command->add_option("--material", options->material, "in place of the object's own: " + listed(render::material_preset_names()));
   command->add_option("--at", options->at_px, "X Y: pixel of the photo where its foot stands; default: the lower corner with more room")
       ->expected(2);
   command->add_option("--distance", options->depth_m, "metres from the camera; default: three quarters of the largest face's");
-  command->add_option("--height", options->height_m, "metres; default: its longer side takes a third of the picture");
+  command->add_option("--height", options->height_m, "metres; default: its longer side takes 35 % of the picture's shorter one");
   command->add_option("--turn", options->turn_deg, "degrees about its own axis, its front to the right")->capture_default_str();
   command->add_option("--horizon", options->horizon_px, "height of the horizon in the photo, pixels from the top; default: from the heads");
   command->add_flag("--no-ground", options->no_ground, "it floats: nothing takes its shadow");
   command->add_option("--matte", options->matte, "picture of the photo's size, white where a person stands before far things");
-  command->add_flag("--preview", options->preview, "a quick look, " + std::to_string(kPreviewPx) + " pixels wide");
+  command->add_flag("--preview", options->preview, "a quick look, its longer side " + std::to_string(kPreviewPx) + " pixels at most");
   command->add_option("--samples", options->samples, "most rays per pixel")->capture_default_str()->check(CLI::Range(1, 1 << 20));
   command->add_option("--noise", options->noise, "stop where the picture is this quiet; 0: never before --samples")->capture_default_str();
   command->add_option("--seed", options->seed, "of the rays")->capture_default_str();

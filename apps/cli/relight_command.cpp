@@ -53,6 +53,7 @@ int run(const Options& options) {
     throw Error(ExitCode::kUsage, "The light would stay as it is; say --map FILE, --dim N, --turn DEGREES or --exposure STOPS.");
   if (!options.map.empty() && options.dim > 0)
     throw Error(ExitCode::kUsage, "--dim is for the photo's own lights; leave it or --map out.");
+  if (!is_picture_output(options.output)) throw Error(ExitCode::kUsage, "The relit photo is one picture; name it -o NAME.png, .exr or .hdr.");
   const EnvMap given = options.map.empty() ? EnvMap() : io::read_env_map(options.map, Orientation::kOpenExr, options.limits);
   if (given.width() > 0 && !(given.integral().sum() > 0)) throw Error(ExitCode::kInput, options.map + " holds no light; choose another map.");
   const pipeline::Estimator estimator(estimate_options(options));
@@ -73,7 +74,7 @@ void add_relight(CLI::App& program, Action& action) {
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand("relight", "a photo's faces in another light: a preview, of the faces alone");
   add_inputs(*command, *options);
-  command->add_option("-o,--output", options->output, "NAME.png or NAME.exr")->capture_default_str();
+  command->add_option("-o,--output", options->output, "NAME.png, .exr or .hdr")->capture_default_str();
   command->add_option("--map", options->map, "lat-long .exr or .hdr map that lights the faces instead, as strong as their own light");
   command->add_option("--dim", options->dim, "put out this many of the photo's main lights, the strongest first")->check(CLI::Range(1, 5));
   command->add_option("--turn", options->turn_deg, "turn the light about the vertical, degrees, to the right seen from above the photo");

@@ -147,6 +147,17 @@ pipeline::EstimateOptions estimate_options(const SharedOptions& options) {
   return out;
 }
 
+bool is_picture_output(const std::string& output) {
+  std::string extension = std::filesystem::path(output).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  for (const char* other : {".jpg", ".jpeg", ".tif", ".tiff", ".webp", ".heic", ".bmp", ".gif"}) {
+    if (extension == other)
+      throw Error(ExitCode::kUsage, "Pictures are written as .png, .exr or .hdr, found -o " + output + "; name one of these, or a folder.");
+  }
+  return extension == ".png" || extension == ".exr" || extension == ".hdr";
+}
+
 std::string folder_for(const std::string& output, const SharedOptions& options, std::size_t input) {
   if (options.inputs.size() == 1) return output;
   const auto stem_of = [&](std::size_t i) {

@@ -42,6 +42,9 @@ Eigen::MatrixX2f parse_landmarks(const std::string& text);
 // "256" or "256x128" to the width. Throws Error(kUsage).
 int parse_map_width(const std::string& text);
 
+// Whether an output is one picture, .png, .exr or .hdr, and not a folder. Throws Error(kUsage) for a picture that is not written.
+bool is_picture_output(const std::string& output);
+
 // Folder for one of several inputs: the output folder itself for one, else a folder in it named after the photo.
 std::string folder_for(const std::string& output, const SharedOptions& options, std::size_t input);
 

@@ -60,6 +60,25 @@ EnvMap sky_and_sun() {
   return map;
 }
 
+// Nothing small and bright, so that neither renderer is left with noise to hide behind.
+EnvMap soft_sky() {
+  EnvMap map(kWidth, kHeight);
+  const Eigen::Vector3f warm = direction_from_angles(-60.0, 30.0).cast<float>();
+  const Eigen::Vector3f cool = direction_from_angles(80.0, 50.0).cast<float>();
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const Eigen::Vector3f at = map.direction(x, y);
+      const float a = std::max(0.0F, at.dot(warm));
+      const float b = std::max(0.0F, at.dot(cool));
+      float* texel = map.radiance().pixel(x, y);
+      texel[0] = 0.3F + 1.5F * a * a + 0.5F * b;
+      texel[1] = 0.35F + 1.2F * a * a + 0.7F * b;
+      texel[2] = 0.4F + 0.9F * a * a + 1.0F * b;
+    }
+  }
+  return map;
+}
+
 }  // namespace
 
 std::vector<TestMap> test_maps(const std::filesystem::path& folder, int count) {
@@ -71,6 +90,7 @@ std::vector<TestMap> test_maps(const std::filesystem::path& folder, int count) {
     const double now = brightest_azimuth_deg(small);
     maps.push_back({choice.name, turned(small, choice.azimuth_deg - now)});
   }
+  maps.push_back({"soft sky", soft_sky()});
   maps.push_back({"sky and sun", sky_and_sun()});
   return maps;
 }

@@ -13,7 +13,7 @@ namespace faceprobe::bench {
 namespace {
 
 SphereGrid grid_of(const lighting::Light& light) {
-  return SphereGrid(static_cast<int>(std::lround(std::sqrt(static_cast<double>(light.radiance.rows()) / 12))));
+  return SphereGrid::of_cells(light.radiance.rows());
 }
 
 Eigen::VectorXd luminances(const lighting::Light& light) {

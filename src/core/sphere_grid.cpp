@@ -32,6 +32,13 @@ SphereGrid::SphereGrid(int nside) : nside_(nside) {
   }
 }
 
+SphereGrid SphereGrid::of_cells(Eigen::Index cells) {
+  const auto nside = static_cast<int>(std::lround(std::sqrt(static_cast<double>(cells) / 12)));
+  if (nside < 1 || static_cast<Eigen::Index>(12) * nside * nside != cells)
+    throw std::invalid_argument("No sphere grid has " + std::to_string(cells) + " cells.");
+  return SphereGrid(nside);
+}
+
 double SphereGrid::cell_solid_angle() const { return 4.0 * kPi / cell_count(); }
 
 double SphereGrid::cell_radius() const { return std::acos(1.0 - cell_solid_angle() / (2.0 * kPi)); }

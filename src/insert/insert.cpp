@@ -3,6 +3,7 @@
 #include "faceprobe/core/error.h"
 #include "faceprobe/core/resample.h"
 #include "faceprobe/insert/composite.h"
+#include "faceprobe/insert/spot.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,10 +14,22 @@ namespace faceprobe::insert {
 namespace {
 
 constexpr float kGroundReach = 3;      // radius of the ground, in the model's longest side
+constexpr float kBlurReach = 3;        // of a Gaussian, in its deviations
 constexpr float kLeastAlbedo = 0.02F;  // of what an unknown ground is taken for
 constexpr float kMostAlbedo = 0.8F;
 constexpr int kBackdropPx = 1024;      // long side: what is seen through glass is bent anyway
 constexpr std::uint64_t kGrainSeed = 1;
+
+Eigen::AlignedBox3f with_ground(Eigen::AlignedBox3f box, const render::Ground& ground) {
+  // A disc's half width along each axis.
+  const Eigen::Vector3f half = ground.radius_m * (1 - ground.up.array().square()).max(0.0F).sqrt().matrix();
+  return box.extend(ground.point - half).extend(ground.point + half);
+}
+
+PixelBox wider(const PixelBox& box, int margin_px, const render::PinholeView& view) {
+  return {std::max(0, box.left - margin_px), std::max(0, box.top - margin_px), std::min(view.width_px, box.right + margin_px),
+          std::min(view.height_px, box.bottom + margin_px)};
+}
 
 float longest_side(const render::Model& model) { return model.box().sizes().maxCoeff(); }
 
@@ -34,7 +47,7 @@ render::Ground ground_under(const Scene& scene) {
 
 // The photo's colour over the light that falls there: what makes the ground look as it does. The photo is taken about the model's foot.
 Eigen::Vector3f albedo_from_photo(const Image& photo, const Scene& scene, const render::Ground& ground) {
-  const std::optional<PixelBox> near = box_in_view(scene.view, scene.model.box(), 0);
+  const std::optional<PixelBox> near = box_in_view(scene.view, scene.model.box());
   if (!near) return Eigen::Vector3f::Constant(0.3F);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   int count = 0;
@@ -61,10 +74,30 @@ render::Backdrop backdrop_of(const Image& photo, const render::PinholeView& view
   return smaller(photo, view, std::min(1.0, static_cast<double>(kBackdropPx) / std::max(photo.width(), photo.height())));
 }
 
-void soften(render::Layers& layers, float sigma_px) {
-  layers.object = blur(layers.object, sigma_px);
-  layers.shadow = blur(layers.shadow, sigma_px);
+// Shadows as darkness of the ground, 1 - shadow where it is seen: blurred apart they would be torn from the thing's foot.
+void soften_shadow(render::Layers& layers, float sigma_px) {
+  Image darkness = layers.shadow;
+  for (std::size_t i = 0; i < darkness.values().size(); ++i)
+    darkness.data()[i] = layers.ground.data()[i / 3] * (1 - darkness.data()[i]);
+  darkness = blur(darkness, sigma_px);
   layers.ground = blur(layers.ground, sigma_px);
+  for (std::size_t i = 0; i < darkness.values().size(); ++i) {
+    const float ground = layers.ground.data()[i / 3];
+    layers.shadow.data()[i] = ground > 1e-6F ? 1 - darkness.data()[i] / ground : 1;
+  }
+}
+
+void soften(render::Layers& layers, float sigma_px) {
+  soften_shadow(layers, sigma_px);
+  // Depth goes where coverage goes, as its mean.
+  Image depth = layers.depth;
+  for (std::size_t i = 0; i < depth.values().size(); ++i) depth.data()[i] *= layers.object.data()[4 * i + 3];
+  depth = blur(depth, sigma_px);
+  layers.object = blur(layers.object, sigma_px);
+  for (std::size_t i = 0; i < depth.values().size(); ++i) {
+    const float cover = layers.object.data()[4 * i + 3];
+    layers.depth.data()[i] = cover > 1e-6F ? depth.data()[i] / cover : 0;
+  }
 }
 
 // Grain where the thing is: the shadowed photo has its own.
@@ -83,34 +116,12 @@ void add_grain_in(Image& picture, const Insertion& done, const Hidden& hidden) {
 
 std::string Options::validate() const { return render.validate(); }
 
-std::optional<PixelBox> box_in_view(const render::PinholeView& view, const Eigen::AlignedBox3f& box, float shadow_reach_m) {
-  Eigen::AlignedBox3f reach = box;
-  reach.min() -= Eigen::Vector3f(shadow_reach_m, 0, shadow_reach_m);
-  reach.max() += Eigen::Vector3f(shadow_reach_m, 0, shadow_reach_m);
-  constexpr float kNear = 0.01F;  // metres: what is nearer may be anywhere in the picture
-  Eigen::AlignedBox2d seen;
-  for (int i = 0; i < 8; ++i) {
-    const Eigen::Vector3f corner = reach.corner(static_cast<Eigen::AlignedBox3f::CornerType>(i));
-    const double depth = std::max(kNear, -corner.z());
-    seen.extend(Eigen::Vector2d(view.centre_x_px + view.focal_px * static_cast<double>(corner.x()) / depth,
-                                view.centre_y_px - view.focal_px * static_cast<double>(corner.y()) / depth));
-  }
-  if (box.min().z() >= -kNear) return std::nullopt;
-  const auto inside = [](double value, int most) { return static_cast<int>(std::clamp(value, 0.0, static_cast<double>(most))); };
-  const PixelBox out{inside(std::floor(seen.min().x()), view.width_px), inside(std::floor(seen.min().y()), view.height_px),
-                     inside(std::ceil(seen.max().x()), view.width_px), inside(std::ceil(seen.max().y()), view.height_px)};
-  if (out.width() <= 0 || out.height() <= 0) return std::nullopt;
-  return out;
-}
-
 void shrink(Image& photo, Scene& scene, int long_side_px) {
   const int longer = std::max(photo.width(), photo.height());
   if (long_side_px <= 0 || longer <= long_side_px) return;
   const auto [view, small] = smaller(photo, scene.view, static_cast<double>(long_side_px) / longer);
-  const auto scale = [&](const Image& image) {
-    return resampled(image, {.scale = static_cast<double>(long_side_px) / longer, .width = view.width_px, .height = view.height_px}, Outside::kEdge);
-  };
-  if (scene.matte) scene.matte = Matte{scale(scene.matte->cover), scale(scene.matte->depth_m)};
+  const Window window{.scale = static_cast<double>(long_side_px) / longer, .width = view.width_px, .height = view.height_px};
+  if (scene.matte) scene.matte = Matte{resampled(scene.matte->cover, window, Outside::kEdge), nearest(scene.matte->depth_m, window)};
   photo = small;
   scene.view = view;
 }
@@ -122,7 +133,7 @@ Insertion insert_model(const Image& photo, const Scene& scene, const Options& op
     if (!fault.empty()) throw std::invalid_argument(fault);
   }
   if (scene.matte && !(scene.matte->cover.same_size(photo) && scene.matte->depth_m.same_size(photo))) throw std::invalid_argument("The matte must have the photo's size.");
-  if (!box_in_view(scene.view, scene.model.box(), 0))
+  if (!box_in_view(scene.view, scene.model.box()))
     throw Error(ExitCode::kUsage, "No part of the object would be in the picture; place it elsewhere, or make it larger.");
 
   Insertion done;
@@ -132,7 +143,9 @@ Insertion insert_model(const Image& photo, const Scene& scene, const Options& op
     done.ground_albedo = scene.ground_albedo.value_or(albedo_from_photo(photo, scene, *drawn.ground));
     drawn.ground->albedo = done.ground_albedo;
   }
-  done.box = *box_in_view(scene.view, scene.model.box(), scene.ground ? drawn.ground->radius_m : 0);
+  if (options.match_blur) done.blur_px = blur_to_match(estimate_blur_px(photo), kRenderedBlurPx);
+  done.box = *box_in_view(scene.view, scene.ground ? with_ground(scene.model.box(), *drawn.ground) : scene.model.box());
+  done.box = wider(done.box, static_cast<int>(std::ceil(kBlurReach * done.blur_px)), scene.view);
   drawn.view = part_of(scene.view, done.box);
   drawn.lamps = scene.lamps;
   drawn.backdrop = backdrop_of(photo, scene.view);
@@ -140,13 +153,15 @@ Insertion insert_model(const Image& photo, const Scene& scene, const Options& op
   const render::PinholeView part = drawn.view;
   render::RenderOptions render = options.render;
   if (render.progress)
-    render.progress = [&](float share) { return !(done.stopped = !options.render.progress(share)); };
+    render.progress = [&](float share) {
+      if (!options.render.progress(share)) done.stopped = true;
+      return !done.stopped;
+    };
   done.layers = render::PathTracer(scene.model, scene.environment, std::move(drawn)).render(render);
 
-  if (options.match_blur) done.blur_px = blur_to_match(estimate_blur_px(photo), kRenderedBlurPx);
+  if (done.blur_px > 0) soften(done.layers, done.blur_px);
   const Hidden hidden =
       scene.matte ? hidden_by(*scene.matte, done.layers, part, ground, done.box) : Hidden{};
-  if (done.blur_px > 0) soften(done.layers, done.blur_px);
   done.picture = photo;
   composite(done.picture, done.box, done.layers, hidden);
   if (options.match_grain) {

@@ -18,6 +18,7 @@ namespace {
 constexpr double kMargin = 0.02;
 constexpr double kBottom = 0.93;
 constexpr double kSize = 0.35;  // of its longer side, of the picture's shorter one
+constexpr float kFlat = 1e-4F;  // of a model's longest side: what is lower has no height to speak of
 constexpr float kNearer = 0.75F;
 constexpr double kFarPx = 1e6;  // beyond any picture, and within what floats bear
 constexpr float kLampRadiusM = 0.04F;  // a bulb with its shade: triangulation does not tell
@@ -81,7 +82,7 @@ void light_scene(const Estimate& estimate, const Eigen::Vector3f& foot, const li
   const auto end = std::find(of_light.begin(), of_light.end(), nullptr);
   const int count = static_cast<int>(end - of_light.begin());
   if (count == 0) return;
-  const SphereGrid grid(static_cast<int>(std::lround(std::sqrt(static_cast<double>(face.light.radiance.rows()) / 12))));
+  const SphereGrid grid = SphereGrid::of_cells(face.light.radiance.rows());
   const Eigen::MatrixX3f rest =
       lighting::without_main_lights(face.light.radiance, grid, count, main_lights, face.light.confidence);
   scene.environment = env_map_from_grid(rest, grid, face.environment.width(), face.environment.height());
@@ -145,7 +146,8 @@ insert::Scene scene_for(const io::Photo& photo, const Estimate& estimate, render
                                       std::to_string(photo.linear.height()) + ", found " + std::to_string(options.matte.width()) +
                                       " x " + std::to_string(options.matte.height()) + ".");
   }
-  if (!(model.box().sizes().y() > 0))
+  const Eigen::Vector3f size = model.box().sizes();
+  if (!(size.y() > kFlat * size.maxCoeff()))
     throw Error(ExitCode::kInput, "The object is flat: it has no height to be placed by. Stand it upright, along +y, in its file.");
   insert::Scene scene;
   scene.view = view_of(estimate);

@@ -135,7 +135,7 @@ void draw_confidence(Page& page, const FaceEstimate& face, int x, int y) {
 }
 
 void draw_balls(Page& page, const FaceEstimate& face, int x, int y, int threads) {
-  const SphereGrid grid(static_cast<int>(std::lround(std::sqrt(static_cast<double>(face.light.radiance.rows()) / 12))));
+  const SphereGrid grid = SphereGrid::of_cells(face.light.radiance.rows());
   using render::SphereMaterial;
   struct Ball {
     std::string name;

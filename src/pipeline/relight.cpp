@@ -18,10 +18,6 @@ constexpr int kNside = 8;          // 768 cells of 7 degrees: shading and skin's
 constexpr float kLeastShare = 0.02F;  // of the face's mean light, added to both lights: where there is none, nothing can be told
 constexpr float kRimShare = 0.03F;    // of the crop, over which the change fades out at the face's outline
 
-SphereGrid grid_of(const Eigen::MatrixX3f& cells) {
-  return SphereGrid(static_cast<int>(std::lround(std::sqrt(static_cast<double>(cells.rows()) / 12))));
-}
-
 // Every pixel of a small copy of the face, as rows for the transport.
 struct SmallFace {
   Image normal, position, view;
@@ -111,7 +107,7 @@ float gloss_of(const FaceEstimate& face, const SmallFace& small, const Eigen::Ma
   return static_cast<float>(product / square);
 }
 
-// What changes in the crop: a factor on all but the highlights, and what is added to these.
+// What changes in the crop: a factor on all light, and what the highlights get beyond it.
 struct Change {
   Image factor, highlight;
 };
@@ -124,16 +120,17 @@ Change change_of(const FaceEstimate& face, const Eigen::MatrixX3f& radiance, con
   const SmallFace small = small_face(face.geometry, window);
   const SphereGrid grid(kNside);
   const lighting::Transport transport = lighting::build_transport(rows_of(small, options.threads), grid, options.threads);
-  const Eigen::MatrixX3f before = grid_from_grid(face.light.radiance, grid_of(face.light.radiance), grid);
-  const Eigen::MatrixX3f after = grid_from_grid(radiance, grid_of(radiance), grid);
+  const Eigen::MatrixX3f before = grid_from_grid(face.light.radiance, SphereGrid::of_cells(face.light.radiance.rows()), grid);
+  const Eigen::MatrixX3f after = grid_from_grid(radiance, SphereGrid::of_cells(radiance.rows()), grid);
   const Eigen::MatrixX3f old_shading = transport.diffuse * before;
   const Eigen::MatrixX3f new_shading = transport.diffuse * after;
-  const float floor = std::max(1e-9F, kLeastShare * old_shading.mean());
+  const float old_floor = std::max(1e-9F, kLeastShare * old_shading.mean());
+  const float new_floor = kLeastShare * new_shading.mean();
   const Eigen::MatrixX3f factor =
-      ((new_shading.array() + floor) / (old_shading.array() + floor)).min(options.most_gain).matrix();
+      ((new_shading.array() + new_floor) / (old_shading.array() + old_floor)).min(options.most_gain).matrix();
   const Eigen::MatrixX3f old_lobe = transport.highlight * before;
   const float gloss = gloss_of(face, small, old_lobe, window);
-  const Eigen::MatrixX3f lobe = gloss * (transport.highlight * after - old_lobe);
+  const Eigen::MatrixX3f lobe = gloss * (transport.highlight * after - factor.cwiseProduct(old_lobe));
   const Window back = window.back_to(crop.width, crop.height);
   return {resampled(spread(small, factor, window.width, window.height), back, Outside::kEdge),
           resampled(spread(small, lobe, window.width, window.height), back, Outside::kEdge)};
@@ -153,26 +150,32 @@ void relight(Image& photo, const FaceEstimate& face, const Eigen::MatrixX3f& rad
   const face::Crop& crop = face.geometry.crop;
   const Change change = change_of(face, radiance, options);
   const Image share = share_of_face(face.geometry);
-  // Onto the photo as a factor and a sum, so that it keeps what the crop was too small for.
+  // Onto the photo as a factor and a sum, so that it keeps what the crop was too small for. A highlight changes by what its lobe does, and
+  // what it has beyond its lobe as the shading does; below 0 it cannot fall.
   Image pair(crop.width, crop.height, 7);
   for (int y = 0; y < crop.height; ++y) {
     for (int x = 0; x < crop.width; ++x) {
       float* pixel = pair.pixel(x, y);
       pixel[6] = share(x, y);
       for (int c = 0; c < 3; ++c) {
-        const float old_highlight = face.layers.highlight(x, y, c);
-        const float new_highlight = std::max(0.0F, old_highlight + change.highlight(x, y, c));
         pixel[c] = change.factor(x, y, c);
-        pixel[3 + c] = new_highlight - change.factor(x, y, c) * old_highlight;
+        pixel[3 + c] = std::max(change.highlight(x, y, c), -change.factor(x, y, c) * face.layers.highlight(x, y, c));
       }
     }
   }
-  const Window window = Window{.left_px = crop.x_px, .top_px = crop.y_px, .scale = crop.scale, .width = crop.width, .height = crop.height}
-                            .back_to(photo.width(), photo.height());
-  const Image wide = resampled(pair, window);
-  for (int y = 0; y < photo.height(); ++y) {
-    for (int x = 0; x < photo.width(); ++x) {
-      const float* with = wide.pixel(x, y);
+  const Eigen::Vector2d far = crop.photo_from_crop(crop.width, crop.height);
+  const int left = std::clamp(static_cast<int>(std::floor(crop.x_px)), 0, photo.width());
+  const int top = std::clamp(static_cast<int>(std::floor(crop.y_px)), 0, photo.height());
+  const int right = std::clamp(static_cast<int>(std::ceil(far.x())), left, photo.width());
+  const int bottom = std::clamp(static_cast<int>(std::ceil(far.y())), top, photo.height());
+  const Image wide = resampled(pair, {.left_px = (left - crop.x_px) * crop.scale,
+                                      .top_px = (top - crop.y_px) * crop.scale,
+                                      .scale = 1 / crop.scale,
+                                      .width = right - left,
+                                      .height = bottom - top});
+  for (int y = top; y < bottom; ++y) {
+    for (int x = left; x < right; ++x) {
+      const float* with = wide.pixel(x - left, y - top);
       for (int c = 0; c < 3; ++c) {
         const float relit = std::max(0.0F, with[c] * photo(x, y, c) + with[3 + c]);
         photo(x, y, c) += with[6] * (relit - photo(x, y, c));

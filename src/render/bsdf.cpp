@@ -54,7 +54,13 @@ Eigen::Vector3f draw_cosine(const Eigen::Vector3f& normal, const Eigen::Vector2f
   return Frame(normal).world({radius * std::cos(phi), radius * std::sin(phi), std::sqrt(std::max(0.0F, 1 - random.x()))});
 }
 
+bool Bsdf::has_halves() const {
+  const MaterialKind kind = finish->material.kind;
+  return kind == MaterialKind::kGlass || (kind == MaterialKind::kPlastic && finish->lobe == nullptr);
+}
+
 bool Bsdf::only_picks_directions() const {
+  if (half == Half::kMirrored) return true;
   const MaterialKind kind = finish->material.kind;
   return kind == MaterialKind::kGlass || (kind == MaterialKind::kMetal && finish->lobe == nullptr);
 }
@@ -62,6 +68,7 @@ bool Bsdf::only_picks_directions() const {
 float Bsdf::coat() const { return dielectric_fresnel(std::max(kGrazing, normal.dot(view)), finish->material.index); }
 
 float Bsdf::chance_of_coat() const {
+  if (half != Half::kBoth) return half == Half::kMirrored ? 1.0F : 0.0F;
   const float mirrored_share = coat();
   const float below = (1 - mirrored_share) * colour.mean();
   return mirrored_share / std::max(1e-6F, mirrored_share + below);
@@ -112,11 +119,21 @@ Bsdf::Draw Bsdf::from_lobe(const Eigen::Vector2f& random) const {
 Bsdf::Draw Bsdf::glass(float choice) const {
   const float cosine = std::clamp(normal.dot(view), 0.0F, 1.0F);
   const float index = inside ? 1 / finish->material.index : finish->material.index;
-  if (choice < dielectric_fresnel(cosine, index)) return {mirrored(view, normal), Eigen::Vector3f::Ones(), 0};
+  const float fresnel = dielectric_fresnel(cosine, index);
+  if (half == Half::kMirrored) return {mirrored(view, normal), Eigen::Vector3f::Constant(fresnel), 0};
+  const float chance = half == Half::kRest ? 0 : fresnel;
+  if (choice < chance) return {mirrored(view, normal), Eigen::Vector3f::Ones(), 0};
   // Snell. Radiance that is squeezed on the way in spreads again on the way out, so it is not scaled.
   const float refracted = std::sqrt(std::max(0.0F, 1 - (1 - cosine * cosine) / (index * index)));
   const Eigen::Vector3f light = ((cosine / index - refracted) * normal - view / index).normalized();
-  return {light, colour, 0};
+  return {light, (1 - fresnel) / (1 - chance) * colour, 0};
+}
+
+Bsdf::Draw Bsdf::base(const Eigen::Vector2f& random) const {
+  Draw out{draw_cosine(normal, random)};
+  out.density = density(out.light);
+  if (out.density > 0) out.weight = value(out.light) / out.density;
+  return out;
 }
 
 Bsdf::Draw Bsdf::draw(float choice, const Eigen::Vector2f& random) const {
@@ -133,10 +150,7 @@ Bsdf::Draw Bsdf::draw(float choice, const Eigen::Vector2f& random) const {
     if (finish->lobe) return from_lobe(random);
     return {mirrored(view, normal), Eigen::Vector3f::Constant(coat() / chance), 0};
   }
-  Draw out{draw_cosine(normal, random)};
-  out.density = density(out.light);
-  if (out.density > 0) out.weight = value(out.light) / out.density;
-  return out;
+  return base(random);
 }
 
 }  // namespace faceprobe::render

@@ -25,7 +25,11 @@ struct Bsdf {
   Eigen::Vector3f normal;  // shading normal, on the viewer's side
   Eigen::Vector3f view;
   bool inside = false;  // the viewer is in the glass
+  // Where a smooth surface mirrors a small part of the light, a sun in it is found by few draws that count much. So what the camera sees is drawn
+  // in two halves: what is mirrored, and the rest.
+  enum class Half { kBoth, kMirrored, kRest } half = Half::kBoth;
 
+  bool has_halves() const;
   // Light directions that a mirror or glass picks out have no value here, only draw() knows them.
   bool only_picks_directions() const;
   // f(view, light) (normal . light).
@@ -45,6 +49,7 @@ struct Bsdf {
   float chance_of_coat() const;
   Draw from_lobe(const Eigen::Vector2f& random) const;
   Draw glass(float choice) const;
+  Draw base(const Eigen::Vector2f& random) const;
 };
 
 // A direction in proportion to its cosine with `normal`; density = cosine / pi.

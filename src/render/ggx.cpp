@@ -22,8 +22,8 @@ Ggx::Ggx(float alpha) : alpha2_(alpha * alpha), alpha_(alpha) {
     double sum = 0;
     for (std::uint32_t s = 0; s < kSamples; ++s) {
       SobolSampler random(static_cast<std::uint32_t>(i), s);
-      const Eigen::Vector3f light = draw(view, random.pair());
-      if (light.z() > 0) sum += single(view, light) / density(view, light);
+      const Eigen::Vector3f light = draw_facet(view, random.pair());
+      if (light.z() > 0) sum += single(view, light) / facet_density(view, light);
     }
     returned_[static_cast<std::size_t>(i)] = static_cast<float>(sum / kSamples);
     mean_returned_ += 2 * cosine * returned_[static_cast<std::size_t>(i)] / kAngles;
@@ -43,7 +43,8 @@ float Ggx::lambda(float cosine) const {
 }
 
 float Ggx::facets(const Eigen::Vector3f& half) const {
-  const float slope = half.z() * half.z() * (alpha2_ - 1) + 1;
+  // cos^2 (alpha^2 - 1) + 1, without the cancellation near the normal.
+  const float slope = half.x() * half.x() + half.y() * half.y() + alpha2_ * half.z() * half.z();
   return alpha2_ / (kPi32 * slope * slope);
 }
 
@@ -60,14 +61,31 @@ float Ggx::value(const Eigen::Vector3f& view, const Eigen::Vector3f& light) cons
   return single(view, light) * (1 + 0.5F * lost / returned(view.z())) + 0.5F * wide;
 }
 
+// How often draw() looks for the light that value() spreads wide.
+float Ggx::wide_chance(float cosine) const { return 0.5F * std::clamp(1 - returned(cosine), 0.0F, 1.0F); }
+
 float Ggx::density(const Eigen::Vector3f& view, const Eigen::Vector3f& light) const {
   if (view.z() <= 0) return 0;
+  const float wide = wide_chance(view.z());
+  return (1 - wide) * facet_density(view, light) + wide * std::max(0.0F, light.z()) / kPi32;
+}
+
+Eigen::Vector3f Ggx::draw(const Eigen::Vector3f& view, const Eigen::Vector2f& random) const {
+  const float wide = wide_chance(view.z());
+  if (random.x() >= wide) return draw_facet(view, {std::min((random.x() - wide) / (1 - wide), 0x1.fffffep-1F), random.y()});
+  const float even = random.x() / wide;
+  const float radius = std::sqrt(even);
+  const float phi = 2 * kPi32 * random.y();
+  return {radius * std::cos(phi), radius * std::sin(phi), std::sqrt(std::max(0.0F, 1 - even))};
+}
+
+float Ggx::facet_density(const Eigen::Vector3f& view, const Eigen::Vector3f& light) const {
   const Eigen::Vector3f half = (view + light).normalized();
   if (half.z() <= 0) return 0;
   return facets(half) / ((1 + lambda(view.z())) * 4 * view.z());
 }
 
-Eigen::Vector3f Ggx::draw(const Eigen::Vector3f& view, const Eigen::Vector2f& random) const {
+Eigen::Vector3f Ggx::draw_facet(const Eigen::Vector3f& view, const Eigen::Vector2f& random) const {
   const Eigen::Vector3f stretched = Eigen::Vector3f(alpha_ * view.x(), alpha_ * view.y(), view.z()).normalized();
   const float flat2 = stretched.x() * stretched.x() + stretched.y() * stretched.y();
   const Eigen::Vector3f side =

@@ -26,6 +26,9 @@ class Ggx {
  private:
   float lambda(float cosine) const;
   float facets(const Eigen::Vector3f& half) const;
+  float wide_chance(float cosine) const;
+  float facet_density(const Eigen::Vector3f& view, const Eigen::Vector3f& light) const;
+  Eigen::Vector3f draw_facet(const Eigen::Vector3f& view, const Eigen::Vector2f& random) const;
 
   static constexpr int kAngles = 32;
   float alpha2_;

@@ -78,10 +78,9 @@ LightSet::Seen LightSet::lamp_along(const Eigen::Vector3f& from, const Eigen::Ve
     const float distance = along - std::sqrt(inside2);
     const float cap = cap_of(lamps_[i], way.squaredNorm());
     if (distance <= 0 || distance >= far || cap >= 2) continue;
-    seen.density += chance_[i] / (2 * kPi32 * cap);  // of one that hides behind another too: it may have drawn this
-    if (seen.distance > 0 && distance >= seen.distance) continue;
-    seen.radiance = radiance_of(lamps_[i]);
-    seen.distance = distance;
+    seen.density += chance_[i] / (2 * kPi32 * cap);
+    seen.radiance += radiance_of(lamps_[i]);
+    seen.distance = seen.distance > 0 ? std::min(seen.distance, distance) : distance;
   }
   return seen;
 }

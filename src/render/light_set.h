@@ -23,7 +23,7 @@ class LightSet {
   Seen draw(const Eigen::Vector3f& from, float choice, const Eigen::Vector2f& random) const;
   // The map alone.
   Seen map_along(const Eigen::Vector3f& direction) const;
-  // The lamp that a ray meets before `far`; density 0 when there is none.
+  // All lamps that a ray meets before `far`, and the distance of the nearest; density 0 when there are none.
   Seen lamp_along(const Eigen::Vector3f& from, const Eigen::Vector3f& direction, float far) const;
   bool has_lamps() const { return !lamps_.empty(); }
 

@@ -102,11 +102,18 @@ Eigen::MatrixX3f smooth_normals(const Eigen::MatrixX3f& vertices, const Eigen::M
 
 void transform(Model& model, const Eigen::Transform<float, 3, Eigen::Affine>& world_from_model) {
   const Eigen::Matrix3f linear = world_from_model.linear();
-  const Eigen::Matrix3f inverse = linear.inverse();
-  const bool mirrors = linear.determinant() < 0;
+  // The inverse transpose up to a factor, by columns of unit length: no scale makes it overflow.
+  Eigen::Matrix3f axes = linear;
+  axes.colwise().normalize();
+  const bool mirrors = axes.determinant() < 0;
+  Eigen::Matrix3f normal_from_normal;
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Vector3f cofactors = axes.col((k + 1) % 3).cross(axes.col((k + 2) % 3));
+    normal_from_normal.col(k) = (mirrors ? -1.0F : 1.0F) / linear.col(k).norm() * cofactors;
+  }
   for (TriangleMesh& mesh : model.meshes) {
     mesh.vertices = (mesh.vertices * linear.transpose()).rowwise() + world_from_model.translation().transpose();
-    mesh.normals = mesh.normals * inverse;  // as rows, so that this is the inverse transpose
+    mesh.normals = mesh.normals * normal_from_normal.transpose();
     mesh.normals.rowwise().normalize();
     // A mirror image would be inside out.
     if (mirrors) mesh.triangles.col(1).swap(mesh.triangles.col(2));

@@ -35,25 +35,23 @@ Eigen::Vector3f seen_far_away(const PathScene& scene, const Ray& ray, const Eige
   if (!scene.options.backdrop || !ray.straight || ray.direction.z() >= 0) return map;
   const auto& [view, photo] = *scene.options.backdrop;
   const double scale = view.focal_px / -static_cast<double>(ray.direction.z());
-  const int x = static_cast<int>(std::floor(view.centre_x_px + scale * static_cast<double>(ray.direction.x())));
-  const int y = static_cast<int>(std::floor(view.centre_y_px - scale * static_cast<double>(ray.direction.y())));
-  if (x < 0 || y < 0 || x >= photo.width() || y >= photo.height()) return map;
-  return Eigen::Map<const Eigen::Vector3f>(photo.pixel(x, y));
+  const double x = view.centre_x_px + scale * static_cast<double>(ray.direction.x());
+  const double y = view.centre_y_px - scale * static_cast<double>(ray.direction.y());
+  if (!(x >= 0 && y >= 0 && x < photo.width() && y < photo.height())) return map;
+  return Eigen::Map<const Eigen::Vector3f>(photo.pixel(static_cast<int>(x), static_cast<int>(y)));
 }
 
-// Light that a ray finds where it ends: the lamp it meets, or the map. False while a surface is next.
-bool ends_in_light(const PathScene& scene, const Ray& ray, bool hit, float hit_distance, Eigen::Vector3f& light) {
+// Light that a ray finds by itself: of the lamps that it meets before the surface it hits, and of the map where it hits none.
+Eigen::Vector3f met_light(const PathScene& scene, const Ray& ray, bool hit, float hit_distance) {
+  const auto share = [&](float density) { return ray.density > 0 ? share_of(ray.density, density) : 1.0F; };
+  Eigen::Vector3f light = Eigen::Vector3f::Zero();
   if (scene.lights.has_lamps()) {
     const LightSet::Seen lamp = scene.lights.lamp_along(ray.origin, ray.direction, hit ? hit_distance : kFar);
-    if (lamp.density > 0) {
-      light = lamp.radiance * (ray.density > 0 ? share_of(ray.density, lamp.density) : 1.0F);
-      return true;
-    }
+    if (lamp.density > 0) light = lamp.radiance * share(lamp.density);
   }
-  if (hit) return false;
+  if (hit) return light;
   const LightSet::Seen far = scene.lights.map_along(ray.direction);
-  light = seen_far_away(scene, ray, far.radiance) * (ray.density > 0 ? share_of(ray.density, far.density) : 1.0F);
-  return true;
+  return light + seen_far_away(scene, ray, far.radiance) * share(far.density);
 }
 
 // One light, drawn for a surface.
@@ -94,9 +92,8 @@ Eigen::Vector3f follow(const PathScene& scene, SurfaceHit at, bool straight, int
     straight = straight && draw.density == 0;
     const Ray ray{RayScene::start(at.position, at.face, draw.light), draw.light, draw.density, straight};
     const bool hit = scene.rays.hit(ray.origin, ray.direction, at);
-    Eigen::Vector3f light;
-    if (ends_in_light(scene, ray, hit, at.distance, light)) return sum + limited(throughput.cwiseProduct(light), limit);
-    if (bounce + 1 >= scene.max_bounces) return sum;
+    sum += limited(throughput.cwiseProduct(met_light(scene, ray, hit, at.distance)), limit);
+    if (!hit || bounce + 1 >= scene.max_bounces) return sum;
     if (bounce + 1 >= kSurePaths) {
       const float alive = std::min(0.95F, throughput.maxCoeff());
       if (random.one() >= alive) return sum;
@@ -115,12 +112,12 @@ void light_ground(const PathScene& scene, SurfaceHit at, SobolSampler& random, P
   const Bsdf::Draw own = at.bsdf.draw(0, random.pair());
   if (is_black(own.weight)) return;
   const Ray ray{RayScene::start(at.position, at.face, own.light), own.light, own.density, false};
-  Eigen::Vector3f light;
-  ends_in_light(scene, ray, false, kFar, light);
+  Eigen::Vector3f light = met_light(scene, ray, false, kFar);
   out.open += own.weight.cwiseProduct(light);
   SurfaceHit next;
-  if (scene.rays.hit(ray.origin, ray.direction, next) && !ends_in_light(scene, ray, true, next.distance, light))
-    light = limited(follow(scene, next, false, 1, random), scene.clamp_indirect);
+  if (scene.rays.hit(ray.origin, ray.direction, next)) {
+    light = met_light(scene, ray, true, next.distance) + limited(follow(scene, next, false, 1, random), scene.clamp_indirect);
+  }
   out.light += own.weight.cwiseProduct(light);
 }
 
@@ -131,7 +128,6 @@ PathSample trace_path(const PathScene& scene, const Eigen::Vector3f& direction, 
   SurfaceHit at;
   if (!scene.rays.hit(Eigen::Vector3f::Zero(), direction, at)) return out;
   if (at.ground) {
-    if (at.face.dot(scene.options.ground->up) < 0) return out;  // from below it is not there
     out.first = PathSample::First::kGround;
     light_ground(scene, at, random, out);
     return out;
@@ -139,7 +135,13 @@ PathSample trace_path(const PathScene& scene, const Eigen::Vector3f& direction, 
   out.first = PathSample::First::kModel;
   out.depth = -at.position.z();
   out.normal = at.bsdf.normal;
-  out.light = follow(scene, at, true, 0, random);
+  if (at.bsdf.has_halves()) {
+    SurfaceHit mirrored = at;
+    mirrored.bsdf.half = Bsdf::Half::kMirrored;
+    out.light = follow(scene, mirrored, true, 0, random);
+    at.bsdf.half = Bsdf::Half::kRest;
+  }
+  out.light += follow(scene, at, true, 0, random);
   return out;
 }
 

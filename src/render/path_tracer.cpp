@@ -51,7 +51,8 @@ std::string SceneOptions::validate() const {
     if (!(lamp.radius_m > 0) || !std::isfinite(lamp.radius_m)) return "A lamp needs a radius above 0 metres.";
   }
   if (backdrop && (backdrop->picture.width() != backdrop->view.width_px || backdrop->picture.height() != backdrop->view.height_px ||
-                   backdrop->picture.channels() != 3 || !(backdrop->view.focal_px > 0)))
+                   backdrop->picture.channels() != 3 || !(backdrop->view.focal_px > 0) || !std::isfinite(backdrop->view.focal_px) ||
+                   !std::isfinite(backdrop->view.centre_x_px) || !std::isfinite(backdrop->view.centre_y_px)))
     return "A backdrop must have the size of its view, a focal length and three channels.";
   return {};
 }
@@ -100,17 +101,18 @@ Layers PathTracer::render(const RenderOptions& options) const {
   const int columns = (view.width_px + kTilePx - 1) / kTilePx;
   const int tiles = columns * ((view.height_px + kTilePx - 1) / kTilePx);
   std::atomic<int> next{0};
-  std::atomic<int> done{0};
+  int done = 0;
   std::atomic<bool> stop{false};
   std::mutex reporting;
-  const int threads = options.threads > 0 ? options.threads : default_thread_count();
+  const int threads = std::min(tiles, options.threads > 0 ? options.threads : default_thread_count());
   parallel_for(threads, threads, [&](int, int) {
     for (int tile = next++; tile < tiles && !stop; tile = next++) {
       render_tile(scene, options, tile % columns, tile / columns, out);
-      const int finished = ++done;
       if (!options.progress) continue;
       const std::lock_guard lock(reporting);
-      if (!options.progress(static_cast<float>(finished) / static_cast<float>(tiles))) stop = true;
+      if (stop) break;
+      stop = true;  // should the callback throw, the others need not go on
+      stop = !options.progress(static_cast<float>(++done) / static_cast<float>(tiles));
     }
   });
   return out;

@@ -49,7 +49,7 @@ TEST(Insert, PhotoStaysOutsideTheBox) {
     }
   }
   EXPECT_GT(same, 96 * 72 / 2);  // the ball is 24 px wide
-  EXPECT_NEAR(done.picture(72, 36, 0), 0.8F, 0.05F);  // albedo under an even sky of 1, 16 draws' noise
+  EXPECT_NEAR(done.picture(72, 36, 0), 0.8F, 0.05F);  // albedo under an even sky of 1; noise of 4 draws
 }
 
 // A scene drawn whole, with its ground, and the same put together from the empty ground and the layers: differential rendering is exact
@@ -107,18 +107,71 @@ TEST(Insert, ThePersonInFrontIsKept) {
   EXPECT_GT(done.picture(52, 40, 0), 0.5F);
 }
 
+TEST(Insert, NoRimOfTheHiddenModelIsLeftOnThePerson) {
+  const Image photo(96, 72, 3, 0.25F);
+  Scene scene = ball_in(even_map(1));
+  scene.ground = false;
+  scene.matte = Matte{Image(96, 72, 1, 1), Image(96, 72, 1, 0.5F)};
+  Options options = plain(4);
+  options.match_blur = true;
+  const Insertion done = insert_model(photo, scene, options);
+  EXPECT_GT(done.blur_px, 0);
+  for (const float value : done.picture.values()) ASSERT_NEAR(value, 0.25F, 1e-6F);  // sums of floats
+}
+
+TEST(Insert, BlurTearsNoShadowFromItsFoot) {
+  // A black ball and its shadow take as much light from the picture, blurred or not.
+  EnvMap map = even_map(0.2F);
+  map.radiance()(8, 1, 0) = map.radiance()(8, 1, 1) = map.radiance()(8, 1, 2) = 40;
+  Image photo(96, 72, 3, 0.5F);
+  for (int y = 0; y < 72; ++y) {
+    for (int x = 0; x < 12; ++x) std::fill_n(photo.pixel(x, y), 3, 0.05F);  // an edge ...
+  }
+  photo = blur(photo, 2);  // ... that is soft
+  Scene scene = ball_in(map);
+  scene.model.materials[0].colour.setZero();
+  scene.ground_albedo = Eigen::Vector3f::Zero();
+  const auto sum = [&](bool soft) {
+    Options options = plain(64);
+    options.match_blur = soft;
+    const Insertion done = insert_model(photo, scene, options);
+    EXPECT_EQ(done.blur_px > 1, soft);
+    double total = 0;
+    for (std::size_t i = 0; i < photo.values().size(); ++i) total += photo.data()[i] - done.picture.data()[i];
+    return total;
+  };
+  EXPECT_NEAR(sum(true), sum(false), 0.01 * sum(false));  // the soft edge of the photo under the blurred layers
+}
+
+TEST(Insert, ShadowOnASlantedGroundIsNotCutOff) {
+  EnvMap map = even_map(0.05F);
+  map.radiance()(3, 4, 1) = map.radiance()(4, 4, 1) = 30;  // from the side
+  const Image photo(96, 72, 3, 0.5F);
+  Scene scene = ball_in(map);
+  scene.up = Eigen::Vector3f(0, 0.5F, 0.866F);  // a table seen from above
+  const Insertion done = insert_model(photo, scene, plain(16));
+  EXPECT_EQ(done.box.left, 0);  // the disc, .6 m about a ball of .2 m at 1 m, is wider and higher than the view of 120 px focal length
+  EXPECT_EQ(done.box.right, 96);
+  EXPECT_EQ(done.box.top, 0);
+  EXPECT_EQ(done.box.bottom, 72);
+}
+
 TEST(Insert, ShrinkKeepsWhatIsSeen) {
   Image photo(96, 72, 3, 0.5F);
   Scene scene = ball_in(even_map(1));
   scene.matte = Matte{Image(96, 72, 1, 1), Image(96, 72, 1, 2)};
-  const auto before = *box_in_view(scene.view, scene.model.box(), 0);
+  for (int y = 0; y < 72; ++y) {
+    for (int x = 0; x < 31; ++x) scene.matte->cover(x, y) = scene.matte->depth_m(x, y) = 0;
+  }
+  const auto before = *box_in_view(scene.view, scene.model.box());
   shrink(photo, scene, 48);
   EXPECT_EQ(photo.width(), 48);
   EXPECT_EQ(photo.height(), 36);
-  const auto after = *box_in_view(scene.view, scene.model.box(), 0);
+  const auto after = *box_in_view(scene.view, scene.model.box());
   EXPECT_NEAR(after.left, 0.5 * before.left, 1);
   EXPECT_NEAR(after.bottom, 0.5 * before.bottom, 1);
   EXPECT_TRUE(scene.matte->cover.same_size(photo));
+  for (const float depth : scene.matte->depth_m.values()) EXPECT_TRUE(depth == 0 || depth == 2);  // no mean of someone and nobody
   insert_model(photo, scene, plain(1));  // all sizes fit
 }
 

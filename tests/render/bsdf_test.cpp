@@ -15,7 +15,7 @@ Eigen::Vector3f tilted(double degrees) {
 
 TEST(Ggx, ReturnsAllLightAndItsDensityIsOne) {
   const SphereGrid grid(128);  // 0.5 degree
-  for (const float alpha : {0.1F, 0.3F, 0.8F}) {
+  for (const float alpha : {0.05F, 0.1F, 0.3F, 0.8F}) {
     const Ggx lobe(alpha);
     for (const double angle : {0.0, 40.0, 75.0}) {
       double value = 0;
@@ -29,6 +29,21 @@ TEST(Ggx, ReturnsAllLightAndItsDensityIsOne) {
       EXPECT_NEAR(density * grid.cell_solid_angle(), 1, 0.005) << alpha << ' ' << angle;
     }
   }
+}
+
+TEST(Ggx, NarrowLobesKeepTheirDensity) {
+  // At roughness .03 the lobe is .05 degrees wide: what is drawn must have the density of its own draw, value over density about 1.
+  const Ggx lobe(0.0009F);
+  double mean = 0;
+  for (std::uint32_t s = 0; s < 1024; ++s) {
+    SobolSampler random(4, s);
+    const Eigen::Vector3f view = tilted(30);
+    const Eigen::Vector3f light = lobe.draw(view, random.pair());
+    const double weight = lobe.value(view, light) / lobe.density(view, light);
+    EXPECT_NEAR(weight, 1, 0.02);
+    mean += weight / 1024;
+  }
+  EXPECT_NEAR(mean, 1, 1e-3);
 }
 
 TEST(Ggx, OneScatteringIsReciprocal) {
@@ -102,6 +117,27 @@ TEST(Bsdf, NoMaterialGivesMoreLightThanItGets) {
       }
       EXPECT_LE((sum / kDraws).maxCoeff(), 1.005) << name << ' ' << angle;  // noise of 4096 draws
     }
+  }
+}
+
+TEST(Bsdf, HalvesAddUpToTheWhole) {
+  for (const char* name : {"plastic", "glass"}) {
+    const Finish finish(material_preset(name));
+    Bsdf bsdf{&finish, finish.material.colour, Eigen::Vector3f::UnitZ(), tilted(70), false};
+    ASSERT_TRUE(bsdf.has_halves()) << name;
+    const auto drawn = [&](Bsdf::Half half) {
+      bsdf.half = half;
+      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+      constexpr std::uint32_t kDraws = 4096;
+      for (std::uint32_t s = 0; s < kDraws; ++s) {
+        SobolSampler random(3, s);
+        const float choice = random.one();
+        sum += bsdf.draw(choice, random.pair()).weight.cast<double>();
+      }
+      return Eigen::Vector3d(sum / kDraws);
+    };
+    const Eigen::Vector3d halves = drawn(Bsdf::Half::kMirrored) + drawn(Bsdf::Half::kRest);
+    EXPECT_LT((drawn(Bsdf::Half::kBoth) - halves).norm(), 5e-3) << name;  // noise of 4096 draws
   }
 }
 

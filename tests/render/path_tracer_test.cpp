@@ -102,6 +102,9 @@ TEST(PathTracer, BallLampFollowsTheInverseSquare) {
     EXPECT_NEAR(light_of(layers.object, 32, 32).x(), expected, 0.01F * expected) << radius;  // noise; a pixel is 2 mm
     EXPECT_NEAR(light_of(layers.object, 32, 32).z(), 3 * expected, 0.03F * expected) << radius;
     EXPECT_NEAR(open_light(EnvMap(8, 4), {lamp}, seen, Eigen::Vector3f::UnitY()).x(), expected, 1e-5F * expected);
+    // And beside a sky, which it does not hide.
+    const PathTracer both(card, even_map(0.4F), {.view = {800, 32, 32 - 240, 64, 64}, .lamps = {lamp}});
+    EXPECT_NEAR(light_of(both.render({.samples = 1024}).object, 32, 32).x(), expected + 0.4F, 0.01F * (expected + 0.4F));
   }
 }
 
@@ -112,9 +115,9 @@ TEST(OpenLight, EvenSkyGivesItsRadiance) {
 
 TEST(PathTracer, LampIsSeenInAMirrorAsBrightAsItIs) {
   const BallLamp lamp{.position = {0, 0, 1.5F}, .radius_m = 0.8F, .intensity = Eigen::Vector3f::Ones()};
-  const PathTracer tracer(ball({.kind = MaterialKind::kMetal, .colour = Eigen::Vector3f::Ones()}), EnvMap(8, 4),
+  const PathTracer tracer(ball({.kind = MaterialKind::kMetal, .colour = Eigen::Vector3f::Ones()}), even_map(0.1F),
                           {.view = kView, .lamps = {lamp}});
-  const float radiance = 1 / (static_cast<float>(kPi) * 0.64F);
+  const float radiance = 1 / (static_cast<float>(kPi) * 0.64F) + 0.1F;
   EXPECT_NEAR(light_of(tracer.render({.samples = 64}).object, 32, 32).x(), radiance, 1e-3F * radiance);
 }
 
@@ -147,6 +150,14 @@ TEST(PathTracer, ShadowLiesOppositeTheLightAndNowhereElse) {
   EXPECT_EQ(layers.shadow(32, 2, 0), 1);
 }
 
+TEST(PathTracer, FromBelowTheGroundIsNotThere) {
+  const Ground ground{.point = {0, 0.2F, -1}, .radius_m = 3};
+  const PathTracer tracer(ball(material_preset("diffuse")), even_map(1), {.view = kView, .ground = ground});
+  const Layers layers = tracer.render({.samples = 16});
+  EXPECT_EQ(layers.object(32, 32, 3), 1);
+  EXPECT_EQ(layers.ground(32, 4), 0);
+}
+
 TEST(PathTracer, MirrorShowsThePhotoBehindTheViewOnlyWhereItIs) {
   Image photo(64, 64, 3);
   for (float& v : photo.values()) v = 0.25F;
@@ -162,8 +173,9 @@ TEST(PathTracer, SameForAnyNumberOfThreads) {
   const Ground ground{.point = {0, -0.15F, -1}};
   Eigen::Vector3f up = Eigen::Vector3f::UnitY();
   const PathTracer tracer(ball(material_preset("plastic")), one_light(up), {.view = kView, .ground = ground});
-  const Layers one = tracer.render({.samples = 20, .noise = 0.05F, .threads = 1});
-  const Layers three = tracer.render({.samples = 20, .noise = 0.05F, .threads = 3});
+  const Layers one = tracer.render({.samples = 256, .noise = 0.05F, .threads = 1});
+  const Layers three = tracer.render({.samples = 256, .noise = 0.05F, .threads = 3});
+  EXPECT_NE(one.samples(32, 32), one.samples(2, 2));  // some squares stopped early
   EXPECT_EQ(one.object, three.object);
   EXPECT_EQ(one.shadow, three.shadow);
   EXPECT_EQ(one.samples, three.samples);

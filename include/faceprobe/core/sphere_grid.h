@@ -22,6 +22,9 @@ class SphereGrid {
 
   int nside() const { return nside_; }
   int cell_count() const { return 12 * nside_ * nside_; }
+  // The grid that has so many cells. Throws std::invalid_argument when none has.
+  static SphereGrid of_cells(Eigen::Index cells);
+
   double cell_solid_angle() const;  // 4 pi / cell_count(), steradians
   double cell_radius() const;       // radius of the disc of the same solid angle, radians
 

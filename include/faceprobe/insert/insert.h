@@ -65,7 +65,4 @@ Insertion insert_model(const Image& photo, const Scene& scene, const Options& op
 // The same at a smaller size, for a quick look: the photo's longer side becomes `long_side_px`. Nothing happens to a photo that is no larger.
 void shrink(Image& photo, Scene& scene, int long_side_px);
 
-// The part of the photo that the model, and the ground near it, may show in; empty when they are outside or behind the camera.
-std::optional<PixelBox> box_in_view(const render::PinholeView& view, const Eigen::AlignedBox3f& box, float shadow_reach_m);
-
 }  // namespace faceprobe::insert

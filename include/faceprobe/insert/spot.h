@@ -4,9 +4,12 @@
 //   const Eigen::Vector3f up = up_from_heads({face_up});
 //   const Eigen::Vector3f foot = point_at(view, 900, 1200, 0.8F);          // on the ray through that pixel, .8 m away
 
+#include "faceprobe/core/pixel_box.h"
 #include "faceprobe/render/path_tracer.h"
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <optional>
 #include <vector>
 
 namespace faceprobe::insert {
@@ -20,5 +23,8 @@ Eigen::Vector3f up_from_heads(const std::vector<Eigen::Vector3f>& heads);
 
 // The point on the ray through (x_px, y_px) at that depth along -z.
 Eigen::Vector3f point_at(const render::PinholeView& view, double x_px, double y_px, float depth_m);
+
+// The part of the photo that a box may show in; empty when that is outside, or wholly behind the camera.
+std::optional<PixelBox> box_in_view(const render::PinholeView& view, const Eigen::AlignedBox3f& box);
 
 }  // namespace faceprobe::insert

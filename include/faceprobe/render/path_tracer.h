@@ -38,7 +38,7 @@ struct Ground {
   Eigen::Vector3f albedo = Eigen::Vector3f::Constant(0.3F);
 };
 
-// A small near light: a ball that shines evenly. Not seen itself by the camera.
+// A small near light: a ball that shines evenly and lets all other light through. Not seen itself by the camera.
 struct BallLamp {
   Eigen::Vector3f position = Eigen::Vector3f::Zero();
   float radius_m = 0.05F;
@@ -71,7 +71,7 @@ struct RenderOptions {
   float clamp_indirect = 0;  // largest value that a path beyond its first bounce may add; 0 = no limit, and no bias
   std::uint64_t seed = 1;
   int threads = 0;
-  // Called from one thread now and then with the share done, 0..1; returning false stops, and what there is comes back.
+  // Called now and then by one thread at a time, with the share done, 0..1, which grows; returning false stops, and what there is comes back.
   std::function<bool(float)> progress{};
 
   std::string validate() const;

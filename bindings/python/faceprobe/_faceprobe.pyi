@@ -1,0 +1,253 @@
+import os
+from pathlib import Path
+from typing import ClassVar, Literal, Optional, Sequence, Tuple, Union
+
+import numpy as np
+from numpy.typing import NDArray
+
+__version__: str
+
+_Path = Union[str, "os.PathLike[str]"]
+_Photo = Union[_Path, NDArray[np.uint8], NDArray[np.float32]]
+_Landmarks = Union[NDArray[np.float32], Sequence[Tuple[float, float]]]
+_Orientation = Literal["openexr", "three", "blender", "debevec"]
+_Separator = Literal["net", "tan", "yang", "shen"]
+_Material = Literal["diffuse", "plastic", "silver", "gold", "mirror", "glass", "clay", "red"]
+
+class FaceprobeError(Exception):
+    code: ClassVar[int]
+
+class UsageError(FaceprobeError): ...
+class InputError(FaceprobeError): ...
+class NoFaceError(FaceprobeError): ...
+class ModelError(FaceprobeError): ...
+class OutputError(FaceprobeError): ...
+class DeviceError(FaceprobeError): ...
+
+class EnvMap:
+    def __init__(self, radiance: NDArray[np.float32]) -> None: ...
+    @property
+    def width(self) -> int: ...
+    @property
+    def height(self) -> int: ...
+    def to_numpy(self) -> NDArray[np.float32]: ...
+    def sample(self, directions: NDArray[np.float32]) -> NDArray[np.float32]: ...
+    def save(self, path: _Path, orientation: _Orientation = "openexr") -> None: ...
+
+class Light:
+    @property
+    def direction(self) -> NDArray[np.float64]: ...
+    @property
+    def azimuth_deg(self) -> float: ...
+    @property
+    def elevation_deg(self) -> float: ...
+    @property
+    def colour(self) -> NDArray[np.float64]: ...
+    @property
+    def irradiance(self) -> float: ...
+    @property
+    def peak_radiance(self) -> float: ...
+    @property
+    def solid_angle_sr(self) -> float: ...
+    @property
+    def share(self) -> float: ...
+
+class LightResult:
+    @property
+    def environment(self) -> EnvMap: ...
+    @property
+    def confidence(self) -> EnvMap: ...
+    @property
+    def sh(self) -> NDArray[np.float64]: ...
+    @property
+    def lights(self) -> list[Light]: ...
+
+class Face(LightResult):
+    @property
+    def box(self) -> Tuple[float, float, float, float]: ...
+    @property
+    def score(self) -> float: ...
+    @property
+    def landmarks(self) -> NDArray[np.float32]: ...
+    @property
+    def camera_from_face(self) -> NDArray[np.float64]: ...
+    @property
+    def position_m(self) -> NDArray[np.float64]: ...
+    @property
+    def light_colour(self) -> NDArray[np.float32]: ...
+    @property
+    def crop(self) -> Tuple[float, float, float]: ...
+    @property
+    def picture(self) -> NDArray[np.float32]: ...
+    @property
+    def highlight(self) -> NDArray[np.float32]: ...
+    @property
+    def diffuse(self) -> NDArray[np.float32]: ...
+    @property
+    def albedo(self) -> NDArray[np.float32]: ...
+    @property
+    def shading(self) -> NDArray[np.float32]: ...
+    @property
+    def normals(self) -> NDArray[np.float32]: ...
+    @property
+    def regions(self) -> NDArray[np.uint8]: ...
+
+class Estimate:
+    @property
+    def faces(self) -> list[Face]: ...
+    @property
+    def largest(self) -> Face: ...
+    @property
+    def joint(self) -> Optional[LightResult]: ...
+    @property
+    def width(self) -> int: ...
+    @property
+    def height(self) -> int: ...
+    @property
+    def focal_px(self) -> float: ...
+    @property
+    def warnings(self) -> list[str]: ...
+    @property
+    def timings(self) -> list[Tuple[str, float]]: ...
+    def to_json(self) -> str: ...
+    def save(
+        self,
+        folder: _Path,
+        *,
+        orientation: _Orientation = "openexr",
+        layers: bool = True,
+        overview: bool = True,
+    ) -> list[Path]: ...
+
+class Layers:
+    @property
+    def highlight(self) -> NDArray[np.float32]: ...
+    @property
+    def diffuse(self) -> NDArray[np.float32]: ...
+
+class Estimator:
+    def __init__(
+        self,
+        *,
+        separator: _Separator = "net",
+        weights: Optional[_Path] = None,
+        geometry: Literal["net", "mesh"] = "net",
+        shading: Literal["net", "regions"] = "net",
+        prior: Literal["net", "smooth"] = "net",
+        solver: Literal["transport", "paper"] = "transport",
+        iterations: int = 50,
+        size: Union[int, str] = 256,
+        layer_px: int = 512,
+        focal_px: Optional[float] = None,
+        landmarks: Optional[_Landmarks] = None,
+        threads: int = 0,
+        deterministic: bool = False,
+        device: str = "auto",
+    ) -> None: ...
+    def estimate(self, photo: _Photo) -> Estimate: ...
+    def separate(self, photo: _Photo) -> Layers: ...
+
+def estimate(
+    photo: _Photo,
+    *,
+    separator: _Separator = "net",
+    weights: Optional[_Path] = None,
+    geometry: Literal["net", "mesh"] = "net",
+    shading: Literal["net", "regions"] = "net",
+    prior: Literal["net", "smooth"] = "net",
+    solver: Literal["transport", "paper"] = "transport",
+    iterations: int = 50,
+    size: Union[int, str] = 256,
+    layer_px: int = 512,
+    focal_px: Optional[float] = None,
+    landmarks: Optional[_Landmarks] = None,
+    threads: int = 0,
+    deterministic: bool = False,
+    device: str = "auto",
+) -> Estimate: ...
+def separate(
+    photo: _Photo,
+    *,
+    separator: _Separator = "net",
+    weights: Optional[_Path] = None,
+    geometry: Literal["net", "mesh"] = "net",
+    shading: Literal["net", "regions"] = "net",
+    prior: Literal["net", "smooth"] = "net",
+    solver: Literal["transport", "paper"] = "transport",
+    iterations: int = 50,
+    size: Union[int, str] = 256,
+    layer_px: int = 512,
+    focal_px: Optional[float] = None,
+    landmarks: Optional[_Landmarks] = None,
+    threads: int = 0,
+    deterministic: bool = False,
+    device: str = "auto",
+) -> Layers: ...
+
+class Insertion:
+    @property
+    def picture(self) -> NDArray[np.float32]: ...
+    @property
+    def box(self) -> Tuple[int, int, int, int]: ...
+    @property
+    def object(self) -> NDArray[np.float32]: ...
+    @property
+    def shadow(self) -> NDArray[np.float32]: ...
+    @property
+    def depth(self) -> NDArray[np.float32]: ...
+    @property
+    def normal(self) -> NDArray[np.float32]: ...
+    @property
+    def warnings(self) -> list[str]: ...
+    def to_json(self) -> str: ...
+    def save(self, path: _Path) -> list[Path]: ...
+
+def insert(
+    photo: _Photo,
+    object: _Path = "pot",
+    *,
+    material: Optional[_Material] = None,
+    at: Optional[Tuple[float, float]] = None,
+    distance: Optional[float] = None,
+    height: Optional[float] = None,
+    turn: float = 0.0,
+    horizon: Optional[float] = None,
+    ground: bool = True,
+    matte: Union[NDArray[np.float32], _Path, None] = None,
+    samples: int = 256,
+    noise: float = 0.03,
+    seed: int = 1,
+    threads: int = 0,
+    estimate: Optional[Estimate] = None,
+) -> Insertion: ...
+def relight(
+    photo: _Photo,
+    *,
+    map: Union[EnvMap, _Path, None] = None,
+    dim: int = 0,
+    turn: float = 0.0,
+    exposure: float = 0.0,
+    threads: int = 0,
+    estimate: Optional[Estimate] = None,
+) -> NDArray[np.float32]: ...
+
+class Lamp:
+    @property
+    def near(self) -> bool: ...
+    @property
+    def position_m(self) -> Optional[NDArray[np.float64]]: ...
+    @property
+    def covariance_m2(self) -> Optional[NDArray[np.float64]]: ...
+    @property
+    def direction(self) -> NDArray[np.float64]: ...
+    @property
+    def colour(self) -> NDArray[np.float64]: ...
+    @property
+    def intensity(self) -> float: ...
+    @property
+    def miss_deg(self) -> float: ...
+    @property
+    def seen(self) -> list[Tuple[int, int]]: ...
+
+def triangulate(estimate: Estimate) -> list[Lamp]: ...
+def read_env_map(path: _Path, orientation: _Orientation = "openexr") -> EnvMap: ...
