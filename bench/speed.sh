@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # How long one 12-megapixel portrait takes, and how much memory: runs the command on an enlarged photo several times and prints
-# the median of every stage, of the wall clock and of the peak memory as Markdown.
+# the median of every stage, of the wall clock and of the peak memory as Markdown; then how long an object takes to be put into it.
 #
 #   bench/speed.sh [--photo FILE] [--runs N] [BUILD_DIR]
 #
@@ -55,3 +55,20 @@ stages "$work/log.1" | cut -f1 | awk '!seen[$0]++' | while IFS= read -r stage; d
     stages "$work/log.$i" | awk -F'\t' -v stage="$stage" '$1 == stage {sum += $2} END {print sum + 0}'
   done | median | xargs printf "| $stage | %.0f |\n"
 done
+
+# seconds FILE ARGUMENT...: the median wall time of putting the pot into a photo.
+seconds() {
+  local input=$1 i
+  shift
+  for ((i = 1; i <= runs; ++i)); do
+    /usr/bin/time -f '%e' -o "$work/insert.$i" "$build/bin/faceprobe" -q insert "$input" -o "$work/out.png" "$@"
+  done
+  cat "$work"/insert.* | median | xargs printf '%.1f'
+}
+echo
+echo "And of \`faceprobe insert\`, the pot:"
+echo
+echo "| | s |"
+echo "| --- | ---: |"
+echo "| \`--preview\` of the same photo | $(seconds "$work/large.jpg" --preview) |"
+echo "| the photo before it was enlarged | $(seconds "$photo") |"

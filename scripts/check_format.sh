@@ -14,7 +14,7 @@ case ${1:-} in
   *) echo "unknown option $1; there is --fix." >&2; exit 2 ;;
 esac
 folders=()
-for folder in include src apps tests bench fuzz; do
+for folder in include src apps bindings tests bench fuzz; do
   if [ -d "$folder" ]; then folders+=("$folder"); fi
 done
 mapfile -d '' -t sources < <(find "${folders[@]}" -type f \( -name '*.h' -o -name '*.cpp' \) -print0 | sort -z)

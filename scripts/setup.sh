@@ -17,6 +17,7 @@ debian_packages=(
   libdnnl-dev ocl-icd-opencl-dev  # the first asks for the second when it is configured, and does not depend on it
   libtorch-dev libembree-dev libopenblas-dev libmatio-dev libhdf5-dev libtinyobjloader-dev libassimp-dev libzip-dev
   nlohmann-json3-dev libcli11-dev libspdlog-dev libnanoflann-dev libgtest-dev
+  python3-dev python3-numpy pybind11-dev
 )
 developer_packages=(clang clang-format clang-tidy)
 

@@ -46,7 +46,8 @@ void add_eval(CLI::App& program, Action& action) {
   command->add_option("--samples", options->samples, "photos, spread evenly over the data")->capture_default_str();
   command->add_option("-o,--output", options->output, "folder for STAGE.csv, STAGE.json and a picture");
   command->add_option("--rows", options->rows, "photos in that picture")->capture_default_str()->check(CLI::Range(1, 200));
-  command->add_option("--object", options->object, "relight: OBJ file to put in the light; a sphere without. insert: a shape or a model file");
+  command->add_option("--object", options->object,
+                      "relight: OBJ file to put in the light; a sphere without. insert: a shape or a model file");
   command->add_option("--scenes", options->scenes, "relight: CSV that names the maps indoor or outdoor");
   command->add_option("--training", options->training, "relight: data whose mean light is a row");
   command->add_option("--prior-weights", options->prior, "relight, insert, triangulate: weights of the light prior");

@@ -16,16 +16,16 @@ int eval_insert(const EvalOptions& options) {
                       .prior = options.prior,
                       .threads = options.threads});
   const render::Model model = object_named(options.object.empty() ? "spheres" : options.object, "");
-  const eval::InsertScores scores =
-      eval::measure_insertion(faces, methods, model,
-                              {.samples = options.samples,
-                               .rows = options.output.empty() ? 0 : options.rows,
-                               .threads = options.threads,
-                               .progress = eval_progress()});
+  const eval::InsertScores scores = eval::measure_insertion(faces, methods, model,
+                                                            {.samples = options.samples,
+                                                             .rows = options.output.empty() ? 0 : options.rows,
+                                                             .threads = options.threads,
+                                                             .progress = eval_progress()});
   const eval::ScoreTable& table = scores.table;
   fmt::print("{} photos of {}.\n", table.rows().size() / methods.size(), options.data);
   fmt::print("\n### What the object changes of the photo, RMSE of 255\n\n{}", table.markdown("rmse", 1));
-  fmt::print("\n### The same after the best exposure of the object, within two stops\n\n{}", table.markdown("scaled", 1));
+  fmt::print("\n### The same after the best exposure of the object, within two stops\n\n{}",
+             table.markdown("scaled", 1));
   fmt::print("\n### Its shadow alone\n\n{}", table.markdown("shadow", 1));
   fmt::print("\n### By skin tone\n\n{}", table.markdown_by_group("rmse", "tone", 1));
   if (options.output.empty()) return 0;

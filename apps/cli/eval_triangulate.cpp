@@ -54,7 +54,8 @@ int eval_triangulate(const EvalOptions& options) {
   const eval::ScoreTable table = eval::measure_rooms(
       groups, estimate_of(options), {.samples = options.samples, .triangulate = {}, .progress = eval_progress()});
   fmt::print("Up to {} photos of {}.\n", options.samples, options.data);
-  fmt::print("\n### Share of the faces that were found, in photos where two were\n\n{}", table.markdown("face_found", 2));
+  fmt::print("\n### Share of the faces that were found, in photos where two were\n\n{}",
+             table.markdown("face_found", 2));
   fmt::print("\n### Faces, metres from where they are\n\n{}", table.markdown("face_m", 2));
   fmt::print("\n### Lamps, metres from where they are; missing = not found\n\n{}", table.markdown("lamp_m", 2));
   fmt::print("\n### Share of the lamps that were found\n\n{}", table.markdown("found", 2));

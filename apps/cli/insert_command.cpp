@@ -52,7 +52,8 @@ Image matte_of(const Options& options) {
 
 int run(const Options& options) {
   if (options.inputs.size() != 1)
-    throw Error(ExitCode::kUsage, "An object is put into one photo, found " + std::to_string(options.inputs.size()) + ".");
+    throw Error(ExitCode::kUsage,
+                "An object is put into one photo, found " + std::to_string(options.inputs.size()) + ".");
   // Before the photo: a typing error should not cost an estimate.
   const bool picture_alone = is_picture_output(options.output);
   render::Model model = object_named(options.object, options.material);
@@ -89,7 +90,8 @@ int run(const Options& options) {
     const auto files = pipeline::write_insertion(output, done, scene, options.inputs[0], options.object);
     spdlog::info("wrote {} files to {}", files.size(), options.output);
   }
-  if (options.json) std::fputs(pipeline::insertion_json(done, scene, options.inputs[0], options.object).c_str(), stdout);
+  if (options.json)
+    std::fputs(pipeline::insertion_json(done, scene, options.inputs[0], options.object).c_str(), stdout);
   return 0;
 }
 
@@ -99,21 +101,37 @@ void add_insert(CLI::App& program, Action& action) {
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand("insert", "a virtual object into a photo, in the light of the faces");
   add_inputs(*command, *options);
-  command->add_option("-o,--output", options->output, "folder for everything, or NAME.png/.exr/.hdr for the picture alone")->capture_default_str();
-  command->add_option("--object", options->object, listed(render::shape_names()) + ", or an OBJ, PLY, STL, glTF or GLB file")
+  command
+      ->add_option("-o,--output", options->output, "folder for everything, or NAME.png/.exr/.hdr for the picture alone")
       ->capture_default_str();
-  command->add_option("--material", options->material, "in place of the object's own: " + listed(render::material_preset_names()));
-  command->add_option("--at", options->at_px, "X Y: pixel of the photo where its foot stands; default: the lower corner with more room")
+  command
+      ->add_option("--object", options->object,
+                   listed(render::shape_names()) + ", or an OBJ, PLY, STL, glTF or GLB file")
+      ->capture_default_str();
+  command->add_option("--material", options->material,
+                      "in place of the object's own: " + listed(render::material_preset_names()));
+  command
+      ->add_option("--at", options->at_px,
+                   "X Y: pixel of the photo where its foot stands; default: the lower corner with more room")
       ->expected(2);
-  command->add_option("--distance", options->depth_m, "metres from the camera; default: three quarters of the largest face's");
-  command->add_option("--height", options->height_m, "metres; default: its longer side takes 35 % of the picture's shorter one");
-  command->add_option("--turn", options->turn_deg, "degrees about its own axis, its front to the right")->capture_default_str();
-  command->add_option("--horizon", options->horizon_px, "height of the horizon in the photo, pixels from the top; default: from the heads");
+  command->add_option("--distance", options->depth_m,
+                      "metres from the camera; default: three quarters of the largest face's");
+  command->add_option("--height", options->height_m,
+                      "metres; default: its longer side takes 35 % of the picture's shorter one");
+  command->add_option("--turn", options->turn_deg, "degrees about its own axis, its front to the right")
+      ->capture_default_str();
+  command->add_option("--horizon", options->horizon_px,
+                      "height of the horizon in the photo, pixels from the top; default: from the heads");
   command->add_flag("--no-ground", options->no_ground, "it floats: nothing takes its shadow");
-  command->add_option("--matte", options->matte, "picture of the photo's size, white where a person stands before far things");
-  command->add_flag("--preview", options->preview, "a quick look, its longer side " + std::to_string(kPreviewPx) + " pixels at most");
-  command->add_option("--samples", options->samples, "most rays per pixel")->capture_default_str()->check(CLI::Range(1, 1 << 20));
-  command->add_option("--noise", options->noise, "stop where the picture is this quiet; 0: never before --samples")->capture_default_str();
+  command->add_option("--matte", options->matte,
+                      "picture of the photo's size, white where a person stands before far things");
+  command->add_flag("--preview", options->preview,
+                    "a quick look, its longer side " + std::to_string(kPreviewPx) + " pixels at most");
+  command->add_option("--samples", options->samples, "most rays per pixel")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1 << 20));
+  command->add_option("--noise", options->noise, "stop where the picture is this quiet; 0: never before --samples")
+      ->capture_default_str();
   command->add_option("--seed", options->seed, "of the rays")->capture_default_str();
   command->add_flag("--json", options->json, "print what stands where on stdout");
   add_face_options(*command, *options);

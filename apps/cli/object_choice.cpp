@@ -22,7 +22,8 @@ render::Model object_named(const std::string& object, const std::string& materia
   const std::vector<std::string>& shapes = render::shape_names();
   const std::vector<std::string>& presets = render::material_preset_names();
   if (!material.empty() && std::find(presets.begin(), presets.end(), material) == presets.end())
-    throw Error(ExitCode::kUsage, "There is no material called '" + material + "'; take one of " + listed(presets) + ".");
+    throw Error(ExitCode::kUsage,
+                "There is no material called '" + material + "'; take one of " + listed(presets) + ".");
   render::Model model;
   if (std::find(shapes.begin(), shapes.end(), object) != shapes.end()) {
     model = render::shape(object);

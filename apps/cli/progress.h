@@ -33,7 +33,9 @@ class Progress {
   }
 
  private:
-  double since_start() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  double since_start() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
 
   std::string what_;
   bool terminal_ = isatty(STDERR_FILENO) != 0;

@@ -26,8 +26,8 @@ struct Options : SharedOptions {
 };
 
 // The light that was asked for, on the cells of the face's own.
-Eigen::MatrixX3f light_of(const Options& options, const pipeline::FaceEstimate& face, const pipeline::Estimator& estimator,
-                          const EnvMap& given) {
+Eigen::MatrixX3f light_of(const Options& options, const pipeline::FaceEstimate& face,
+                          const pipeline::Estimator& estimator, const EnvMap& given) {
   const lighting::Light& own = face.light;
   const SphereGrid grid(estimator.options().solve.nside);
   Eigen::MatrixX3f light = own.radiance;
@@ -50,12 +50,16 @@ int run(const Options& options) {
   if (options.inputs.size() != 1)
     throw Error(ExitCode::kUsage, "One photo is relit at a time, found " + std::to_string(options.inputs.size()) + ".");
   if (options.map.empty() && options.turn_deg == 0 && options.dim == 0 && options.exposure == 0)
-    throw Error(ExitCode::kUsage, "The light would stay as it is; say --map FILE, --dim N, --turn DEGREES or --exposure STOPS.");
+    throw Error(ExitCode::kUsage,
+                "The light would stay as it is; say --map FILE, --dim N, --turn DEGREES or --exposure STOPS.");
   if (!options.map.empty() && options.dim > 0)
     throw Error(ExitCode::kUsage, "--dim is for the photo's own lights; leave it or --map out.");
-  if (!is_picture_output(options.output)) throw Error(ExitCode::kUsage, "The relit photo is one picture; name it -o NAME.png, .exr or .hdr.");
-  const EnvMap given = options.map.empty() ? EnvMap() : io::read_env_map(options.map, Orientation::kOpenExr, options.limits);
-  if (given.width() > 0 && !(given.integral().sum() > 0)) throw Error(ExitCode::kInput, options.map + " holds no light; choose another map.");
+  if (!is_picture_output(options.output))
+    throw Error(ExitCode::kUsage, "The relit photo is one picture; name it -o NAME.png, .exr or .hdr.");
+  const EnvMap given =
+      options.map.empty() ? EnvMap() : io::read_env_map(options.map, Orientation::kOpenExr, options.limits);
+  if (given.width() > 0 && !(given.integral().sum() > 0))
+    throw Error(ExitCode::kInput, options.map + " holds no light; choose another map.");
   const pipeline::Estimator estimator(estimate_options(options));
   const io::Photo photo = io::load_photo(options.inputs[0], options.limits);
   const pipeline::Estimate estimate = estimator.estimate(photo);
@@ -72,12 +76,16 @@ int run(const Options& options) {
 
 void add_relight(CLI::App& program, Action& action) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = program.add_subcommand("relight", "a photo's faces in another light: a preview, of the faces alone");
+  CLI::App* command =
+      program.add_subcommand("relight", "a photo's faces in another light: a preview, of the faces alone");
   add_inputs(*command, *options);
   command->add_option("-o,--output", options->output, "NAME.png, .exr or .hdr")->capture_default_str();
-  command->add_option("--map", options->map, "lat-long .exr or .hdr map that lights the faces instead, as strong as their own light");
-  command->add_option("--dim", options->dim, "put out this many of the photo's main lights, the strongest first")->check(CLI::Range(1, 5));
-  command->add_option("--turn", options->turn_deg, "turn the light about the vertical, degrees, to the right seen from above the photo");
+  command->add_option("--map", options->map,
+                      "lat-long .exr or .hdr map that lights the faces instead, as strong as their own light");
+  command->add_option("--dim", options->dim, "put out this many of the photo's main lights, the strongest first")
+      ->check(CLI::Range(1, 5));
+  command->add_option("--turn", options->turn_deg,
+                      "turn the light about the vertical, degrees, to the right seen from above the photo");
   command->add_option("--exposure", options->exposure, "stops brighter or darker");
   add_face_options(*command, *options);
   add_solver_options(*command, *options);

@@ -166,19 +166,20 @@ std::vector<eval::LightMethod> insert_methods(const RelightRows& rows) {
   lighting::SolveOptions paper = options.solve;
   paper.solver = lighting::Solver::kPaper;
   paper.threads = options.threads;
-  return {whole("transport", shared),
-          other_solver("transport without the prior", shared,
-                       [options](const lighting::Observations& o) { return lighting::solve(o, options.solve).radiance; }),
-          other_solver("paper", shared,
-                       [paper](const lighting::Observations& o) { return lighting::solve(o, paper).radiance; }),
-          other_solver("harmonics of order 2 from the shading", shared,
-                       [grid](const lighting::Observations& o) {
-                         return lighting::radiance_of_harmonics(lighting::fit_harmonics(o, 2), *grid);
-                       }),
-          other_solver("ambient, as bright as the shading", shared, [grid](const lighting::Observations& o) {
-            const Eigen::RowVector3f level = (o.weight.transpose() * o.shading) / o.weight.sum();
-            return Eigen::MatrixX3f(level.replicate(grid->cell_count(), 1));
-          })};
+  return {
+      whole("transport", shared),
+      other_solver("transport without the prior", shared,
+                   [options](const lighting::Observations& o) { return lighting::solve(o, options.solve).radiance; }),
+      other_solver("paper", shared,
+                   [paper](const lighting::Observations& o) { return lighting::solve(o, paper).radiance; }),
+      other_solver("harmonics of order 2 from the shading", shared,
+                   [grid](const lighting::Observations& o) {
+                     return lighting::radiance_of_harmonics(lighting::fit_harmonics(o, 2), *grid);
+                   }),
+      other_solver("ambient, as bright as the shading", shared, [grid](const lighting::Observations& o) {
+        const Eigen::RowVector3f level = (o.weight.transpose() * o.shading) / o.weight.sum();
+        return Eigen::MatrixX3f(level.replicate(grid->cell_count(), 1));
+      })};
 }
 
 std::vector<eval::LightMethod> relight_methods(const RelightRows& rows) {

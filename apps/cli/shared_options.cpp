@@ -153,7 +153,8 @@ bool is_picture_output(const std::string& output) {
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
   for (const char* other : {".jpg", ".jpeg", ".tif", ".tiff", ".webp", ".heic", ".bmp", ".gif"}) {
     if (extension == other)
-      throw Error(ExitCode::kUsage, "Pictures are written as .png, .exr or .hdr, found -o " + output + "; name one of these, or a folder.");
+      throw Error(ExitCode::kUsage, "Pictures are written as .png, .exr or .hdr, found -o " + output +
+                                        "; name one of these, or a folder.");
   }
   return extension == ".png" || extension == ".exr" || extension == ".hdr";
 }

@@ -12,9 +12,7 @@ namespace faceprobe::bench {
 
 namespace {
 
-SphereGrid grid_of(const lighting::Light& light) {
-  return SphereGrid::of_cells(light.radiance.rows());
-}
+SphereGrid grid_of(const lighting::Light& light) { return SphereGrid::of_cells(light.radiance.rows()); }
 
 Eigen::VectorXd luminances(const lighting::Light& light) {
   Eigen::VectorXd values(light.radiance.rows());

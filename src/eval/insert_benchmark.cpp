@@ -20,7 +20,7 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kAcross = 0.6;
 constexpr double kDown = 0.9;
 constexpr float kNearer = 0.75F;
-constexpr float kSize = 0.55F;  // of its longer side, of the picture's width
+constexpr float kSize = 0.55F;      // of its longer side, of the picture's width
 constexpr float kChanged = 0.004F;  // least change of linear light that counts as such
 
 float face_depth_m(const SyntheticPhoto& photo) {
@@ -38,13 +38,15 @@ float face_depth_m(const SyntheticPhoto& photo) {
 insert::Scene scene_of(const SyntheticPhoto& photo, const render::Model& model) {
   const synth::ViewLayers& seen = photo.view;
   insert::Scene scene;
-  scene.view = {seen.focal_px, seen.centre_px.x(), seen.centre_px.y(), photo.layers.linear.width(), photo.layers.linear.height()};
+  scene.view = {seen.focal_px, seen.centre_px.x(), seen.centre_px.y(), photo.layers.linear.width(),
+                photo.layers.linear.height()};
   scene.model = model;
   const float depth_m = kNearer * face_depth_m(photo);
   const Eigen::Vector3f size = model.box().sizes();
   const float width_m = kSize * depth_m * static_cast<float>(scene.view.width_px / scene.view.focal_px);
   render::place(scene.model, {.height_m = width_m * size.y() / std::max(size.x(), size.y()),
-                              .foot = insert::point_at(scene.view, kAcross * scene.view.width_px, kDown * scene.view.height_px, depth_m)});
+                              .foot = insert::point_at(scene.view, kAcross * scene.view.width_px,
+                                                       kDown * scene.view.height_px, depth_m)});
   return scene;
 }
 
@@ -57,7 +59,8 @@ struct Squares {
 
   void add(const float* a, const float* b) {
     for (int c = 0; c < 3; ++c)
-      sum += squared(255.0 * static_cast<double>(srgb_from_linear(std::clamp(a[c], 0.0F, 1.0F)) - srgb_from_linear(std::clamp(b[c], 0.0F, 1.0F))));
+      sum += squared(255.0 * static_cast<double>(srgb_from_linear(std::clamp(a[c], 0.0F, 1.0F)) -
+                                                 srgb_from_linear(std::clamp(b[c], 0.0F, 1.0F))));
     count += 3;
   }
   double rms() const { return count > 0 ? std::sqrt(sum / count) : kNaN; }
@@ -75,7 +78,9 @@ Errors errors_of(const Image& photo, const insert::Insertion& truth, const inser
       const float* before = photo.pixel(truth.box.left + x, truth.box.top + y);
       const float* there = truth.picture.pixel(truth.box.left + x, truth.box.top + y);
       const float* here = found.picture.pixel(truth.box.left + x, truth.box.top + y);
-      const bool changed = std::abs(there[0] - before[0]) + std::abs(there[1] - before[1]) + std::abs(there[2] - before[2]) > 3 * kChanged;
+      const bool changed =
+          std::abs(there[0] - before[0]) + std::abs(there[1] - before[1]) + std::abs(there[2] - before[2]) >
+          3 * kChanged;
       if (!changed) continue;
       float exposed[3];
       for (int c = 0; c < 3; ++c) exposed[c] = here[c] + (exposure - 1) * found.layers.object(x, y, c);
@@ -86,7 +91,8 @@ Errors errors_of(const Image& photo, const insert::Insertion& truth, const inser
   return {whole.rms(), shadow.rms()};
 }
 
-std::map<std::string, double> metrics_of(const Image& photo, const insert::Insertion& truth, const insert::Insertion& found) {
+std::map<std::string, double> metrics_of(const Image& photo, const insert::Insertion& truth,
+                                         const insert::Insertion& found) {
   const Errors as_it_is = errors_of(photo, truth, found, 1);
   double scaled = as_it_is.whole;
   for (int eighth_stop = -16; eighth_stop <= 16; ++eighth_stop)
@@ -100,11 +106,13 @@ void append_row(ByteImage& sheet, const std::vector<ByteImage>& cells) {
   ByteImage row(width * static_cast<int>(cells.size()), height, 3);
   for (std::size_t i = 0; i < cells.size(); ++i) {
     for (int y = 0; y < std::min(height, cells[i].height()); ++y)
-      std::copy_n(cells[i].pixel(0, y), 3 * std::min(width, cells[i].width()), row.pixel(static_cast<int>(i) * width, y));
+      std::copy_n(cells[i].pixel(0, y), 3 * std::min(width, cells[i].width()),
+                  row.pixel(static_cast<int>(i) * width, y));
   }
   ByteImage longer(row.width(), sheet.height() + height, 3);
   std::copy(sheet.values().begin(), sheet.values().end(), longer.values().begin());
-  std::copy(row.values().begin(), row.values().end(), longer.values().begin() + static_cast<std::ptrdiff_t>(sheet.values().size()));
+  std::copy(row.values().begin(), row.values().end(),
+            longer.values().begin() + static_cast<std::ptrdiff_t>(sheet.values().size()));
   sheet = std::move(longer);
 }
 
@@ -118,8 +126,8 @@ std::string InsertBenchmark::validate() const {
   return {};
 }
 
-InsertScores measure_insertion(const synth::ShardReader& faces, const std::vector<LightMethod>& methods, const render::Model& model,
-                               const InsertBenchmark& options) {
+InsertScores measure_insertion(const synth::ShardReader& faces, const std::vector<LightMethod>& methods,
+                               const render::Model& model, const InsertBenchmark& options) {
   for (const std::string& problem : {options.validate(), model.validate()}) {
     if (!problem.empty()) throw Error(ExitCode::kUsage, problem);
   }

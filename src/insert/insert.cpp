@@ -17,7 +17,7 @@ constexpr float kGroundReach = 3;      // radius of the ground, in the model's l
 constexpr float kBlurReach = 3;        // of a Gaussian, in its deviations
 constexpr float kLeastAlbedo = 0.02F;  // of what an unknown ground is taken for
 constexpr float kMostAlbedo = 0.8F;
-constexpr int kBackdropPx = 1024;      // long side: what is seen through glass is bent anyway
+constexpr int kBackdropPx = 1024;  // long side: what is seen through glass is bent anyway
 constexpr std::uint64_t kGrainSeed = 1;
 
 Eigen::AlignedBox3f with_ground(Eigen::AlignedBox3f box, const render::Ground& ground) {
@@ -27,8 +27,8 @@ Eigen::AlignedBox3f with_ground(Eigen::AlignedBox3f box, const render::Ground& g
 }
 
 PixelBox wider(const PixelBox& box, int margin_px, const render::PinholeView& view) {
-  return {std::max(0, box.left - margin_px), std::max(0, box.top - margin_px), std::min(view.width_px, box.right + margin_px),
-          std::min(view.height_px, box.bottom + margin_px)};
+  return {std::max(0, box.left - margin_px), std::max(0, box.top - margin_px),
+          std::min(view.width_px, box.right + margin_px), std::min(view.height_px, box.bottom + margin_px)};
 }
 
 float longest_side(const render::Model& model) { return model.box().sizes().maxCoeff(); }
@@ -37,7 +37,8 @@ float longest_side(const render::Model& model) { return model.box().sizes().maxC
 render::Ground ground_under(const Scene& scene) {
   const Eigen::Vector3f middle = scene.model.box().center();
   float lowest = std::numeric_limits<float>::infinity();
-  for (const render::TriangleMesh& mesh : scene.model.meshes) lowest = std::min(lowest, (mesh.vertices * scene.up).minCoeff());
+  for (const render::TriangleMesh& mesh : scene.model.meshes)
+    lowest = std::min(lowest, (mesh.vertices * scene.up).minCoeff());
   render::Ground ground;
   ground.up = scene.up;
   ground.point = middle + (lowest - middle.dot(scene.up)) * scene.up;
@@ -52,7 +53,8 @@ Eigen::Vector3f albedo_from_photo(const Image& photo, const Scene& scene, const 
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   int count = 0;
   for (int y = near->top + 3 * near->height() / 4; y < near->bottom; ++y) {
-    for (int x = near->left; x < near->right; ++x, ++count) sum += Eigen::Map<const Eigen::Vector3f>(photo.pixel(x, y)).cast<double>();
+    for (int x = near->left; x < near->right; ++x, ++count)
+      sum += Eigen::Map<const Eigen::Vector3f>(photo.pixel(x, y)).cast<double>();
   }
   const Eigen::Vector3f light = render::open_light(scene.environment, scene.lamps, ground.point, ground.up);
   const Eigen::Vector3f colour = (sum / std::max(1, count)).cast<float>();
@@ -120,8 +122,10 @@ void shrink(Image& photo, Scene& scene, int long_side_px) {
   const int longer = std::max(photo.width(), photo.height());
   if (long_side_px <= 0 || longer <= long_side_px) return;
   const auto [view, small] = smaller(photo, scene.view, static_cast<double>(long_side_px) / longer);
-  const Window window{.scale = static_cast<double>(long_side_px) / longer, .width = view.width_px, .height = view.height_px};
-  if (scene.matte) scene.matte = Matte{resampled(scene.matte->cover, window, Outside::kEdge), nearest(scene.matte->depth_m, window)};
+  const Window window{
+      .scale = static_cast<double>(long_side_px) / longer, .width = view.width_px, .height = view.height_px};
+  if (scene.matte)
+    scene.matte = Matte{resampled(scene.matte->cover, window, Outside::kEdge), nearest(scene.matte->depth_m, window)};
   photo = small;
   scene.view = view;
 }
@@ -132,9 +136,11 @@ Insertion insert_model(const Image& photo, const Scene& scene, const Options& op
   for (const std::string& fault : {options.validate(), scene.model.validate()}) {
     if (!fault.empty()) throw std::invalid_argument(fault);
   }
-  if (scene.matte && !(scene.matte->cover.same_size(photo) && scene.matte->depth_m.same_size(photo))) throw std::invalid_argument("The matte must have the photo's size.");
+  if (scene.matte && !(scene.matte->cover.same_size(photo) && scene.matte->depth_m.same_size(photo)))
+    throw std::invalid_argument("The matte must have the photo's size.");
   if (!box_in_view(scene.view, scene.model.box()))
-    throw Error(ExitCode::kUsage, "No part of the object would be in the picture; place it elsewhere, or make it larger.");
+    throw Error(ExitCode::kUsage,
+                "No part of the object would be in the picture; place it elsewhere, or make it larger.");
 
   Insertion done;
   render::SceneOptions drawn;
@@ -160,8 +166,7 @@ Insertion insert_model(const Image& photo, const Scene& scene, const Options& op
   done.layers = render::PathTracer(scene.model, scene.environment, std::move(drawn)).render(render);
 
   if (done.blur_px > 0) soften(done.layers, done.blur_px);
-  const Hidden hidden =
-      scene.matte ? hidden_by(*scene.matte, done.layers, part, ground, done.box) : Hidden{};
+  const Hidden hidden = scene.matte ? hidden_by(*scene.matte, done.layers, part, ground, done.box) : Hidden{};
   done.picture = photo;
   composite(done.picture, done.box, done.layers, hidden);
   if (options.match_grain) {

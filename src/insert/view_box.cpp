@@ -15,9 +15,12 @@ std::optional<PixelBox> box_in_view(const render::PinholeView& view, const Eigen
                                 view.centre_y_px - view.focal_px * static_cast<double>(corner.y()) / depth));
   }
   if (box.min().z() >= -kNear) return std::nullopt;
-  const auto inside = [](double value, int most) { return static_cast<int>(std::clamp(value, 0.0, static_cast<double>(most))); };
-  const PixelBox out{inside(std::floor(seen.min().x()), view.width_px), inside(std::floor(seen.min().y()), view.height_px),
-                     inside(std::ceil(seen.max().x()), view.width_px), inside(std::ceil(seen.max().y()), view.height_px)};
+  const auto inside = [](double value, int most) {
+    return static_cast<int>(std::clamp(value, 0.0, static_cast<double>(most)));
+  };
+  const PixelBox out{
+      inside(std::floor(seen.min().x()), view.width_px), inside(std::floor(seen.min().y()), view.height_px),
+      inside(std::ceil(seen.max().x()), view.width_px), inside(std::ceil(seen.max().y()), view.height_px)};
   if (out.width() <= 0 || out.height() <= 0) return std::nullopt;
   return out;
 }

@@ -20,7 +20,7 @@ constexpr double kBottom = 0.93;
 constexpr double kSize = 0.35;  // of its longer side, of the picture's shorter one
 constexpr float kFlat = 1e-4F;  // of a model's longest side: what is lower has no height to speak of
 constexpr float kNearer = 0.75F;
-constexpr double kFarPx = 1e6;  // beyond any picture, and within what floats bear
+constexpr double kFarPx = 1e6;         // beyond any picture, and within what floats bear
 constexpr float kLampRadiusM = 0.04F;  // a bulb with its shade: triangulation does not tell
 
 float depth_of(const FaceEstimate& face) { return static_cast<float>(-face.face.position_m().z()); }
@@ -38,15 +38,17 @@ Stand stand_of(const Estimate& estimate, const render::Model& model, const Inser
   const double across_per_height = std::hypot(size.x(), size.z()) / std::max(1e-9F, size.y());
   const double px_per_m = view.focal_px / static_cast<double>(depth_m);
   const double room_px = kSize * std::min(view.width_px, view.height_px);
-  const double height_m = options.height_m ? static_cast<double>(*options.height_m) : room_px / std::max(1.0, across_per_height) / px_per_m;
+  const double height_m =
+      options.height_m ? static_cast<double>(*options.height_m) : room_px / std::max(1.0, across_per_height) / px_per_m;
   // Its whole width in the picture, however it is turned; and its front, which is nearer than the foot, spreads from the middle.
   const double radius_px = 0.5 * across_per_height * height_m * px_per_m;
   const double front = 1 - std::min(0.5, radius_px / view.focal_px);
   const face::Box& box = largest.face.box;
   const bool more_room_right = box.x + 0.5F * box.width < 0.5F * static_cast<float>(view.width_px);
   const double edge_px = more_room_right ? (1 - kMargin) * view.width_px : kMargin * view.width_px;
-  const Eigen::Vector2d unless_told(view.centre_x_px + front * (edge_px - view.centre_x_px) + (more_room_right ? -radius_px : radius_px),
-                                    view.centre_y_px + front * (kBottom * view.height_px - view.centre_y_px));
+  const Eigen::Vector2d unless_told(
+      view.centre_x_px + front * (edge_px - view.centre_x_px) + (more_room_right ? -radius_px : radius_px),
+      view.centre_y_px + front * (kBottom * view.height_px - view.centre_y_px));
   const Eigen::Vector2d at = options.at_px.value_or(unless_told);
   return {insert::point_at(view, at.x(), at.y(), depth_m), static_cast<float>(height_m)};
 }
@@ -54,7 +56,8 @@ Stand stand_of(const Estimate& estimate, const render::Model& model, const Inser
 Eigen::Vector3f up_of(const Estimate& estimate, const InsertionOptions& options) {
   if (options.horizon_px) return insert::up_from_horizon(view_of(estimate), *options.horizon_px);
   std::vector<Eigen::Vector3f> heads;
-  for (const FaceEstimate& face : estimate.faces) heads.emplace_back(face.face.camera_from_face.linear().col(1).cast<float>());
+  for (const FaceEstimate& face : estimate.faces)
+    heads.emplace_back(face.face.camera_from_face.linear().col(1).cast<float>());
   return insert::up_from_heads(heads);
 }
 
@@ -67,7 +70,8 @@ const FaceEstimate& nearest_face(const Estimate& estimate, const Eigen::Vector3f
 }
 
 // The face's map; and if its strongest lights are lamps whose places are known, these beside a map that is without them.
-void light_scene(const Estimate& estimate, const Eigen::Vector3f& foot, const lighting::MainLightOptions& main_lights, insert::Scene& scene) {
+void light_scene(const Estimate& estimate, const Eigen::Vector3f& foot, const lighting::MainLightOptions& main_lights,
+                 insert::Scene& scene) {
   std::size_t index = 0;
   const FaceEstimate& face = nearest_face(estimate, foot, index);
   scene.environment = face.environment;
@@ -95,7 +99,8 @@ void light_scene(const Estimate& estimate, const Eigen::Vector3f& foot, const li
 
 // What the faces' crops show of people: all that is not background.
 insert::Matte matte_of(const Estimate& estimate, const Image& given) {
-  insert::Matte matte{Image(estimate.photo_width, estimate.photo_height, 1), Image(estimate.photo_width, estimate.photo_height, 1)};
+  insert::Matte matte{Image(estimate.photo_width, estimate.photo_height, 1),
+                      Image(estimate.photo_width, estimate.photo_height, 1)};
   if (!given.empty()) {
     matte.cover = given;
     std::fill(matte.depth_m.values().begin(), matte.depth_m.values().end(), depth_of(estimate.faces[estimate.largest]));
@@ -126,11 +131,15 @@ insert::Matte matte_of(const Estimate& estimate, const Image& given) {
 }  // namespace
 
 std::string InsertionOptions::validate() const {
-  if (at_px && !(at_px->array().abs() <= kFarPx).all()) return "The place in the photo must be two numbers of pixels, none above a million.";
-  if (depth_m && !(*depth_m > 0.05F && *depth_m < 1000)) return "The distance must be from .05 to 1000 metres, found " + std::to_string(*depth_m) + ".";
-  if (height_m && !(*height_m > 1e-4F && *height_m < 1000)) return "The height must be from .0001 to 1000 metres, found " + std::to_string(*height_m) + ".";
+  if (at_px && !(at_px->array().abs() <= kFarPx).all())
+    return "The place in the photo must be two numbers of pixels, none above a million.";
+  if (depth_m && !(*depth_m > 0.05F && *depth_m < 1000))
+    return "The distance must be from .05 to 1000 metres, found " + std::to_string(*depth_m) + ".";
+  if (height_m && !(*height_m > 1e-4F && *height_m < 1000))
+    return "The height must be from .0001 to 1000 metres, found " + std::to_string(*height_m) + ".";
   if (!std::isfinite(turn_deg)) return "The turn must be a number of degrees.";
-  if (horizon_px && !(std::abs(*horizon_px) <= kFarPx)) return "The horizon must be a number of pixels, not above a million.";
+  if (horizon_px && !(std::abs(*horizon_px) <= kFarPx))
+    return "The horizon must be a number of pixels, not above a million.";
   return {};
 }
 
@@ -139,16 +148,19 @@ render::PinholeView view_of(const Estimate& estimate) {
   return {camera.focal_px, camera.centre_x_px, camera.centre_y_px, estimate.photo_width, estimate.photo_height};
 }
 
-insert::Scene scene_for(const io::Photo& photo, const Estimate& estimate, render::Model model, const InsertionOptions& options) {
+insert::Scene scene_for(const io::Photo& photo, const Estimate& estimate, render::Model model,
+                        const InsertionOptions& options) {
   if (const std::string fault = options.validate(); !fault.empty()) throw Error(ExitCode::kUsage, fault);
   if (!options.matte.empty() && !(options.matte.same_size(photo.linear) && options.matte.channels() == 1)) {
-    throw Error(ExitCode::kUsage, "The matte must have the photo's size, " + std::to_string(photo.linear.width()) + " x " +
-                                      std::to_string(photo.linear.height()) + ", found " + std::to_string(options.matte.width()) +
-                                      " x " + std::to_string(options.matte.height()) + ".");
+    throw Error(ExitCode::kUsage, "The matte must have the photo's size, " + std::to_string(photo.linear.width()) +
+                                      " x " + std::to_string(photo.linear.height()) + ", found " +
+                                      std::to_string(options.matte.width()) + " x " +
+                                      std::to_string(options.matte.height()) + ".");
   }
   const Eigen::Vector3f size = model.box().sizes();
   if (!(size.y() > kFlat * size.maxCoeff()))
-    throw Error(ExitCode::kInput, "The object is flat: it has no height to be placed by. Stand it upright, along +y, in its file.");
+    throw Error(ExitCode::kInput,
+                "The object is flat: it has no height to be placed by. Stand it upright, along +y, in its file.");
   insert::Scene scene;
   scene.view = view_of(estimate);
   scene.up = up_of(estimate, options);

@@ -58,8 +58,10 @@ std::string insertion_json(const insert::Insertion& done, const insert::Scene& s
   json["ground"] = scene.ground ? Json{{"albedo", array_of(done.ground_albedo)}} : Json(nullptr);
   json["lamps"] = Json::array();
   for (const render::BallLamp& lamp : scene.lamps)
-    json["lamps"].push_back({{"position_m", array_of(lamp.position)}, {"radius_m", lamp.radius_m}, {"intensity", array_of(lamp.intensity)}});
-  json["box_px"] = {{"left", done.box.left}, {"top", done.box.top}, {"width", done.box.width()}, {"height", done.box.height()}};
+    json["lamps"].push_back(
+        {{"position_m", array_of(lamp.position)}, {"radius_m", lamp.radius_m}, {"intensity", array_of(lamp.intensity)}});
+  json["box_px"] = {
+      {"left", done.box.left}, {"top", done.box.top}, {"width", done.box.width()}, {"height", done.box.height()}};
   json["blur_px"] = done.blur_px;
   json["grain_sigma"] = done.grain.sigma;
   json["complete"] = !done.stopped;
@@ -67,7 +69,8 @@ std::string insertion_json(const insert::Insertion& done, const insert::Scene& s
 }
 
 std::vector<std::filesystem::path> write_insertion(const std::filesystem::path& folder, const insert::Insertion& done,
-                                                   const insert::Scene& scene, const std::string& photo, const std::string& object) {
+                                                   const insert::Scene& scene, const std::string& photo,
+                                                   const std::string& object) {
   io::create_folder(folder);
   std::vector<std::filesystem::path> files;
   const auto write = [&](const char* name, const auto& picture) {

@@ -14,9 +14,10 @@
 namespace faceprobe::pipeline {
 namespace {
 
-constexpr int kNside = 8;          // 768 cells of 7 degrees: shading and skin's lobes are wider
-constexpr float kLeastShare = 0.02F;  // of the face's mean light, added to both lights: where there is none, nothing can be told
-constexpr float kRimShare = 0.03F;    // of the crop, over which the change fades out at the face's outline
+constexpr int kNside = 8;  // 768 cells of 7 degrees: shading and skin's lobes are wider
+constexpr float kLeastShare =
+    0.02F;  // of the face's mean light, added to both lights: where there is none, nothing can be told
+constexpr float kRimShare = 0.03F;  // of the crop, over which the change fades out at the face's outline
 
 // Every pixel of a small copy of the face, as rows for the transport.
 struct SmallFace {
@@ -26,8 +27,11 @@ struct SmallFace {
 };
 
 SmallFace small_face(const face::FaceGeometry& geometry, const Window& window) {
-  SmallFace small{resampled(geometry.normal_cam, window), nearest(geometry.position_cam_m, window),
-                  resampled(geometry.view_cam, window, Outside::kEdge), resampled(geometry.region, window, 0), {}};
+  SmallFace small{resampled(geometry.normal_cam, window),
+                  nearest(geometry.position_cam_m, window),
+                  resampled(geometry.view_cam, window, Outside::kEdge),
+                  resampled(geometry.region, window, 0),
+                  {}};
   for (int y = 0; y < window.height; ++y) {
     for (int x = 0; x < window.width; ++x) {
       // Where the face meets what is not face, normals are means with nothing: half their length is the border.
@@ -119,8 +123,10 @@ Change change_of(const FaceEstimate& face, const Eigen::MatrixX3f& radiance, con
                       .height = std::max(1, static_cast<int>(std::lround(scale * crop.height)))};
   const SmallFace small = small_face(face.geometry, window);
   const SphereGrid grid(kNside);
-  const lighting::Transport transport = lighting::build_transport(rows_of(small, options.threads), grid, options.threads);
-  const Eigen::MatrixX3f before = grid_from_grid(face.light.radiance, SphereGrid::of_cells(face.light.radiance.rows()), grid);
+  const lighting::Transport transport =
+      lighting::build_transport(rows_of(small, options.threads), grid, options.threads);
+  const Eigen::MatrixX3f before =
+      grid_from_grid(face.light.radiance, SphereGrid::of_cells(face.light.radiance.rows()), grid);
   const Eigen::MatrixX3f after = grid_from_grid(radiance, SphereGrid::of_cells(radiance.rows()), grid);
   const Eigen::MatrixX3f old_shading = transport.diffuse * before;
   const Eigen::MatrixX3f new_shading = transport.diffuse * after;
@@ -139,14 +145,17 @@ Change change_of(const FaceEstimate& face, const Eigen::MatrixX3f& radiance, con
 }  // namespace
 
 std::string RelightOptions::validate() const {
-  if (shading_px < 8 || shading_px > 512) return "shading_px must be from 8 to 512, found " + std::to_string(shading_px) + ".";
-  if (!(most_gain >= 1 && most_gain <= 1000)) return "most_gain must be from 1 to 1000, found " + std::to_string(most_gain) + ".";
+  if (shading_px < 8 || shading_px > 512)
+    return "shading_px must be from 8 to 512, found " + std::to_string(shading_px) + ".";
+  if (!(most_gain >= 1 && most_gain <= 1000))
+    return "most_gain must be from 1 to 1000, found " + std::to_string(most_gain) + ".";
   return {};
 }
 
 void relight(Image& photo, const FaceEstimate& face, const Eigen::MatrixX3f& radiance, const RelightOptions& options) {
   if (const std::string fault = options.validate(); !fault.empty()) throw std::invalid_argument(fault);
-  if (radiance.rows() != face.light.radiance.rows()) throw std::invalid_argument("A new light needs one radiance per cell of the old one.");
+  if (radiance.rows() != face.light.radiance.rows())
+    throw std::invalid_argument("A new light needs one radiance per cell of the old one.");
   const face::Crop& crop = face.geometry.crop;
   const Change change = change_of(face, radiance, options);
   const Image share = share_of_face(face.geometry);

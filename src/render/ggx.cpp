@@ -72,7 +72,8 @@ float Ggx::density(const Eigen::Vector3f& view, const Eigen::Vector3f& light) co
 
 Eigen::Vector3f Ggx::draw(const Eigen::Vector3f& view, const Eigen::Vector2f& random) const {
   const float wide = wide_chance(view.z());
-  if (random.x() >= wide) return draw_facet(view, {std::min((random.x() - wide) / (1 - wide), 0x1.fffffep-1F), random.y()});
+  if (random.x() >= wide)
+    return draw_facet(view, {std::min((random.x() - wide) / (1 - wide), 0x1.fffffep-1F), random.y()});
   const float even = random.x() / wide;
   const float radius = std::sqrt(even);
   const float phi = 2 * kPi32 * random.y();

@@ -116,7 +116,8 @@ void light_ground(const PathScene& scene, SurfaceHit at, SobolSampler& random, P
   out.open += own.weight.cwiseProduct(light);
   SurfaceHit next;
   if (scene.rays.hit(ray.origin, ray.direction, next)) {
-    light = met_light(scene, ray, true, next.distance) + limited(follow(scene, next, false, 1, random), scene.clamp_indirect);
+    light = met_light(scene, ray, true, next.distance) +
+            limited(follow(scene, next, false, 1, random), scene.clamp_indirect);
   }
   out.light += own.weight.cwiseProduct(light);
 }

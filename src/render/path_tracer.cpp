@@ -50,9 +50,10 @@ std::string SceneOptions::validate() const {
       return "A lamp needs a finite place and an intensity of 0 or more.";
     if (!(lamp.radius_m > 0) || !std::isfinite(lamp.radius_m)) return "A lamp needs a radius above 0 metres.";
   }
-  if (backdrop && (backdrop->picture.width() != backdrop->view.width_px || backdrop->picture.height() != backdrop->view.height_px ||
-                   backdrop->picture.channels() != 3 || !(backdrop->view.focal_px > 0) || !std::isfinite(backdrop->view.focal_px) ||
-                   !std::isfinite(backdrop->view.centre_x_px) || !std::isfinite(backdrop->view.centre_y_px)))
+  if (backdrop &&
+      (backdrop->picture.width() != backdrop->view.width_px || backdrop->picture.height() != backdrop->view.height_px ||
+       backdrop->picture.channels() != 3 || !(backdrop->view.focal_px > 0) || !std::isfinite(backdrop->view.focal_px) ||
+       !std::isfinite(backdrop->view.centre_x_px) || !std::isfinite(backdrop->view.centre_y_px)))
     return "A backdrop must have the size of its view, a focal length and three channels.";
   return {};
 }
@@ -126,7 +127,8 @@ Eigen::Vector3f open_light(const EnvMap& environment, const std::vector<BallLamp
     for (int x = 0; x < environment.width(); ++x) {
       const float cosine = normal.dot(environment.direction(x, y));
       if (cosine > 0)
-        sum += cosine * solid_angle * Eigen::Map<const Eigen::Vector3f>(environment.radiance().pixel(x, y)).cast<double>();
+        sum +=
+            cosine * solid_angle * Eigen::Map<const Eigen::Vector3f>(environment.radiance().pixel(x, y)).cast<double>();
     }
   }
   for (const BallLamp& lamp : lamps) {

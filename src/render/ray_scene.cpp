@@ -40,8 +40,9 @@ PackedMesh packed(const TriangleMesh& mesh) {
   out.corners.resize(static_cast<std::size_t>(mesh.vertices.rows()));
   for (std::size_t i = 0; i < out.corners.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
-    out.corners[i] = {mesh.vertices.row(row).transpose(), mesh.normals.row(row).transpose(),
-                      out.has_uv ? Eigen::Vector2f(mesh.uv.row(row).transpose()) : Eigen::Vector2f(Eigen::Vector2f::Zero())};
+    out.corners[i] = {
+        mesh.vertices.row(row).transpose(), mesh.normals.row(row).transpose(),
+        out.has_uv ? Eigen::Vector2f(mesh.uv.row(row).transpose()) : Eigen::Vector2f(Eigen::Vector2f::Zero())};
   }
   out.triangles.resize(static_cast<std::size_t>(mesh.triangles.rows()));
   for (std::size_t i = 0; i < out.triangles.size(); ++i)
@@ -76,7 +77,8 @@ void attach(RTCDevice device, RTCScene scene, const PackedMesh& mesh) {
 }
 
 // A smooth normal that mirrors the viewer into the surface, where only a black rim would be, is bent until it mirrors along it, as Cycles does.
-Eigen::Vector3f mirroring_outwards(const Eigen::Vector3f& normal, const Eigen::Vector3f& face, const Eigen::Vector3f& view) {
+Eigen::Vector3f mirroring_outwards(const Eigen::Vector3f& normal, const Eigen::Vector3f& face,
+                                   const Eigen::Vector3f& view) {
   constexpr float kLeastHeight = 0.01F;
   const Eigen::Vector3f mirrored = 2 * normal.dot(view) * normal - view;
   const float least = std::min(0.9F * face.dot(view), kLeastHeight);
@@ -86,7 +88,8 @@ Eigen::Vector3f mirroring_outwards(const Eigen::Vector3f& normal, const Eigen::V
 }
 
 // Towards the viewer, as far as it has to be.
-Eigen::Vector3f shading_normal(Eigen::Vector3f normal, const Eigen::Vector3f& face, const Eigen::Vector3f& view, bool mirrors) {
+Eigen::Vector3f shading_normal(Eigen::Vector3f normal, const Eigen::Vector3f& face, const Eigen::Vector3f& view,
+                               bool mirrors) {
   if (normal.dot(face) < 0) normal = -normal;
   normal.normalize();
   // Of a surface that its smooth normals turn away from the viewer, the silhouette is seen.
@@ -186,16 +189,19 @@ bool RayScene::hit(const Eigen::Vector3f& origin, const Eigen::Vector3f& directi
   return true;
 }
 
-bool RayScene::occluded(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction, float far, bool by_ground) const {
+bool RayScene::occluded(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction, float far,
+                        bool by_ground) const {
   if (by_ground && ground_distance(origin, direction) < far) return true;
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  alignas(16) RTCRay ray{origin.x(), origin.y(), origin.z(), 0, direction.x(), direction.y(), direction.z(), 0, far, ~0U, 0, 0};
+  alignas(16)
+      RTCRay ray{origin.x(), origin.y(), origin.z(), 0, direction.x(), direction.y(), direction.z(), 0, far, ~0U, 0, 0};
   rtcOccluded1(state_->rays.get(), &context, &ray);
   return ray.tfar < 0;  // Embree's sign for a hit
 }
 
-Eigen::Vector3f RayScene::start(const Eigen::Vector3f& position, const Eigen::Vector3f& face, const Eigen::Vector3f& direction) {
+Eigen::Vector3f RayScene::start(const Eigen::Vector3f& position, const Eigen::Vector3f& face,
+                                const Eigen::Vector3f& direction) {
   // Some units in the last place of the position's numbers.
   const float step = 2e-6F * (1e-3F + position.cwiseAbs().maxCoeff());
   return position + (direction.dot(face) >= 0 ? 4 * step : -4 * step) * face;

@@ -19,8 +19,8 @@ LightMethod truth_times(float gain) {
 TEST(InsertBenchmark, KnowsTheTruthItsStrengthAndNothingElse) {
   const SmallFaces small;
   const synth::ShardReader faces(small.path());
-  const InsertScores scores =
-      measure_insertion(faces, {truth_times(1), truth_times(0.5F), ambient_method()}, render::cube(), {.samples = 2, .rays = 64, .rows = 1});
+  const InsertScores scores = measure_insertion(faces, {truth_times(1), truth_times(0.5F), ambient_method()},
+                                                render::cube(), {.samples = 2, .rays = 64, .rows = 1});
   const auto mean = [&](const std::string& metric, const std::string& method) {
     return scores.table.summary(metric, {.method = method}).mean;
   };

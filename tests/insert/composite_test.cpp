@@ -7,7 +7,8 @@ namespace {
 
 // One pixel, in a photo of one.
 render::Layers layers_of(const Eigen::Vector4f& object, float shadow, float ground, float depth) {
-  render::Layers layers{Image(1, 1, 4), Image(1, 1, 3, shadow), Image(1, 1, 1, ground), Image(1, 1, 1, depth), Image(1, 1, 3), Image(1, 1, 1)};
+  render::Layers layers{Image(1, 1, 4),        Image(1, 1, 3, shadow), Image(1, 1, 1, ground),
+                        Image(1, 1, 1, depth), Image(1, 1, 3),         Image(1, 1, 1)};
   Eigen::Map<Eigen::Vector4f>(layers.object.pixel(0, 0)) = object;
   return layers;
 }
@@ -34,11 +35,11 @@ TEST(Composite, WhoStandsNearerHidesModelAndShadow) {
     const Matte matte{Image(1, 1, 1, 0.75F), Image(1, 1, 1, person_m)};
     return hidden_by(matte, layers_of({1, 1, 1, 1}, 1, 0, model_m), view, ground, kBox);
   };
-  EXPECT_EQ(hidden_at(1, 2).model(0, 0), 0.75F);   // person, model, wall
+  EXPECT_EQ(hidden_at(1, 2).model(0, 0), 0.75F);  // person, model, wall
   EXPECT_EQ(hidden_at(1, 2).ground(0, 0), 0.75F);
-  EXPECT_EQ(hidden_at(2.5F, 2).model(0, 0), 0);    // model, person, wall
+  EXPECT_EQ(hidden_at(2.5F, 2).model(0, 0), 0);  // model, person, wall
   EXPECT_EQ(hidden_at(2.5F, 2).ground(0, 0), 0.75F);
-  EXPECT_EQ(hidden_at(4, 2).ground(0, 0), 0);      // model, wall, person
+  EXPECT_EQ(hidden_at(4, 2).ground(0, 0), 0);  // model, wall, person
 
   Image picture(1, 1, 3, 0.5F);
   composite(picture, kBox, layers_of({1, 1, 1, 1}, 0.2F, 0, 2), hidden_at(1, 2));

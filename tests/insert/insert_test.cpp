@@ -48,7 +48,7 @@ TEST(Insert, PhotoStaysOutsideTheBox) {
       EXPECT_EQ(done.picture(x, y, 1), photo(x, y, 1));
     }
   }
-  EXPECT_GT(same, 96 * 72 / 2);  // the ball is 24 px wide
+  EXPECT_GT(same, 96 * 72 / 2);                       // the ball is 24 px wide
   EXPECT_NEAR(done.picture(72, 36, 0), 0.8F, 0.05F);  // albedo under an even sky of 1; noise of 4 draws
 }
 
@@ -79,7 +79,8 @@ TEST(Insert, OnAGroundOfKnownLightItIsTheSameAsDrawingAll) {
   whole.materials.push_back({.colour = albedo});
   const render::Layers truth = render::PathTracer(whole, map, {.view = kView}).render({.samples = 512});
   // Ball, shadow and open ground; noise of 512 draws, and the disc ends at .6 m where the card does not.
-  for (const auto& [x, y] : std::vector<std::pair<int, int>>{{48, 38}, {44, 50}, {52, 50}, {30, 56}, {66, 56}, {48, 60}}) {
+  for (const auto& [x, y] :
+       std::vector<std::pair<int, int>>{{48, 38}, {44, 50}, {52, 50}, {30, 56}, {66, 56}, {48, 60}}) {
     for (int c = 0; c < 3; ++c) {
       const float expected = truth.object(x, y, c);
       EXPECT_NEAR(done.picture(x, y, c), expected, 0.05F * expected) << x << ' ' << y;
@@ -150,7 +151,8 @@ TEST(Insert, ShadowOnASlantedGroundIsNotCutOff) {
   Scene scene = ball_in(map);
   scene.up = Eigen::Vector3f(0, 0.5F, 0.866F);  // a table seen from above
   const Insertion done = insert_model(photo, scene, plain(16));
-  EXPECT_EQ(done.box.left, 0);  // the disc, .6 m about a ball of .2 m at 1 m, is wider and higher than the view of 120 px focal length
+  EXPECT_EQ(done.box.left,
+            0);  // the disc, .6 m about a ball of .2 m at 1 m, is wider and higher than the view of 120 px focal length
   EXPECT_EQ(done.box.right, 96);
   EXPECT_EQ(done.box.top, 0);
   EXPECT_EQ(done.box.bottom, 72);
@@ -171,8 +173,9 @@ TEST(Insert, ShrinkKeepsWhatIsSeen) {
   EXPECT_NEAR(after.left, 0.5 * before.left, 1);
   EXPECT_NEAR(after.bottom, 0.5 * before.bottom, 1);
   EXPECT_TRUE(scene.matte->cover.same_size(photo));
-  for (const float depth : scene.matte->depth_m.values()) EXPECT_TRUE(depth == 0 || depth == 2);  // no mean of someone and nobody
-  insert_model(photo, scene, plain(1));  // all sizes fit
+  for (const float depth : scene.matte->depth_m.values())
+    EXPECT_TRUE(depth == 0 || depth == 2);  // no mean of someone and nobody
+  insert_model(photo, scene, plain(1));     // all sizes fit
 }
 
 TEST(Insert, SaysWhatItCannotDo) {

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Fails when an include goes up or sideways in the house, and on what else keeps it tidy. Reads the tree named as $1.
 #   - A room includes only rooms below it:
-#       core < io < net render < face highlight lighting insert synth < assets pipeline eval train < batch < apps
+#       core < io < net render < face highlight lighting insert synth < assets pipeline eval train < batch < apps bindings
 #   - A public header includes no internal one, because only public ones are installed.
 #   - Torch is seen only by src/net/torch and src/train.
 #   - No file is longer than 600 lines.
@@ -9,7 +9,7 @@ set -euo pipefail
 
 cd "$1"
 folders=()
-for folder in include src apps tests bench fuzz; do
+for folder in include src apps bindings tests bench fuzz; do
   if [ -d "$folder" ]; then folders+=("$folder"); fi
 done
 mapfile -d '' -t sources < <(find "${folders[@]}" -type f \( -name '*.h' -o -name '*.cpp' \) -print0 | sort -z)
@@ -21,16 +21,16 @@ awk '
   function storey(room) { return (room in floor) ? floor[room] : -1 }
 
   BEGIN {
-    split("core:0 io:1 net:2 render:2 face:3 highlight:3 lighting:3 insert:3 synth:3 assets:4 pipeline:4 eval:4 train:4 batch:5 apps:6",
+    split("core:0 io:1 net:2 render:2 face:3 highlight:3 lighting:3 insert:3 synth:3 assets:4 pipeline:4 eval:4 train:4 batch:5 apps:6 bindings:6",
           plan, " ")
     for (i in plan) { split(plan[i], pair, ":"); floor[pair[1]] = pair[2] + 0 }
   }
 
   FNR == 1 {
     split(FILENAME, part, "/")
-    in_house = part[1] == "include" || part[1] == "src" || part[1] == "apps"
+    in_house = part[1] == "include" || part[1] == "src" || part[1] == "apps" || part[1] == "bindings"
     public_header = part[1] == "include"
-    room = part[1] == "apps" ? "apps" : (public_header ? part[3] : part[2])
+    room = part[1] == "apps" || part[1] == "bindings" ? part[1] : (public_header ? part[3] : part[2])
     if (in_house && storey(room) < 0) fault("\"" room "\" is not a room of the house")
   }
 

@@ -35,7 +35,8 @@ TEST_F(Relight, HalfTheLightHalvesTheFaceAndNothingElse) {
   Image picture = photo;
   relight(picture, face, 0.5F * face.light.radiance);
   const face::Box& box = face.face.box;
-  EXPECT_NEAR(mean_of(picture, box, 0.3F, 0.7F) / mean_of(photo, box, 0.3F, 0.7F), 0.5, 2e-3);  // it is linear; float sums
+  EXPECT_NEAR(mean_of(picture, box, 0.3F, 0.7F) / mean_of(photo, box, 0.3F, 0.7F), 0.5,
+              2e-3);  // it is linear; float sums
   EXPECT_EQ(picture(2, 2, 0), photo(2, 2, 0));
   EXPECT_EQ(picture(photo.width() - 3, photo.height() - 3, 1), photo(photo.width() - 3, photo.height() - 3, 1));
 }
@@ -44,7 +45,8 @@ TEST_F(Relight, ALampAtTheRightLightsTheRight) {
   const SphereGrid grid = SphereGrid::of_cells(face.light.radiance.rows());
   Eigen::MatrixX3f light = Eigen::MatrixX3f::Constant(grid.cell_count(), 3, 0.05F * face.light.radiance.mean());
   for (int j = 0; j < grid.cell_count(); ++j) {
-    if (grid.direction(j).dot(Eigen::Vector3f(0.94F, 0, 0.34F)) > 0.9F) light.row(j).setConstant(20 * face.light.radiance.mean());
+    if (grid.direction(j).dot(Eigen::Vector3f(0.94F, 0, 0.34F)) > 0.9F)
+      light.row(j).setConstant(20 * face.light.radiance.mean());
   }
   Image picture = photo;
   relight(picture, face, light);

@@ -1,7 +1,7 @@
+#include "render/bsdf.h"
 #include "faceprobe/core/angles.h"
 #include "faceprobe/core/random.h"
 #include "faceprobe/core/sphere_grid.h"
-#include "render/bsdf.h"
 #include "render/sobol.h"
 
 #include <gtest/gtest.h>
@@ -63,12 +63,12 @@ TEST(Ggx, OneScatteringIsReciprocal) {
 }
 
 TEST(Fresnel, ClosedForms) {
-  EXPECT_NEAR(dielectric_fresnel(1, 1.5F), 0.04F, 1e-6F);                             // ((n - 1) / (n + 1))^2
-  EXPECT_NEAR(dielectric_fresnel(0, 1.5F), 1, 1e-6F);                                 // grazing
-  EXPECT_EQ(dielectric_fresnel(0.5F, 1 / 1.5F), 1);                                   // beyond the critical angle, 41.8 degrees
-  EXPECT_NEAR(dielectric_fresnel(0.3F, 1), 0, 1e-6F);                                 // no surface
+  EXPECT_NEAR(dielectric_fresnel(1, 1.5F), 0.04F, 1e-6F);  // ((n - 1) / (n + 1))^2
+  EXPECT_NEAR(dielectric_fresnel(0, 1.5F), 1, 1e-6F);      // grazing
+  EXPECT_EQ(dielectric_fresnel(0.5F, 1 / 1.5F), 1);        // beyond the critical angle, 41.8 degrees
+  EXPECT_NEAR(dielectric_fresnel(0.3F, 1), 0, 1e-6F);      // no surface
   const float brewster = static_cast<float>(std::cos(std::atan(1.5)));
-  const float across = std::pow((1.0F - 2.25F) / (1 + 2.25F), 2.0F);                  // only one polarisation is left there
+  const float across = std::pow((1.0F - 2.25F) / (1 + 2.25F), 2.0F);  // only one polarisation is left there
   EXPECT_NEAR(dielectric_fresnel(brewster, 1.5F), across / 2, 1e-5F);
 }
 
@@ -144,7 +144,8 @@ TEST(Bsdf, HalvesAddUpToTheWhole) {
 TEST(Bsdf, GlassRefractsBySnell) {
   const Finish finish(Material{.kind = MaterialKind::kGlass, .colour = Eigen::Vector3f::Ones(), .index = 1.5F});
   const Eigen::Vector3f view = tilted(30);
-  const Bsdf::Draw in = Bsdf{&finish, Eigen::Vector3f::Ones(), Eigen::Vector3f::UnitZ(), view, false}.draw(0.999F, {0, 0});
+  const Bsdf::Draw in =
+      Bsdf{&finish, Eigen::Vector3f::Ones(), Eigen::Vector3f::UnitZ(), view, false}.draw(0.999F, {0, 0});
   EXPECT_NEAR(std::hypot(in.light.x(), in.light.y()), std::sin(radians(30)) / 1.5, 1e-6);
   EXPECT_LT(in.light.z(), 0);
   EXPECT_LT(in.light.x(), 0);

@@ -187,7 +187,9 @@ TEST(PathTracer, SamplesGoWhereTheNoiseIs) {
   const Layers layers = tracer.render({.samples = 1024, .noise = 0.01F});
   EXPECT_GT(layers.samples(0, 0), layers.samples(32, 32));
   EXPECT_LT(layers.samples(32, 32), 512);
-  EXPECT_EQ(PathTracer(ball(material_preset("diffuse")), even_map(0.5F), {.view = kView}).render({.samples = 99}).samples(2, 2), 16);
+  EXPECT_EQ(
+      PathTracer(ball(material_preset("diffuse")), even_map(0.5F), {.view = kView}).render({.samples = 99}).samples(2, 2),
+      16);
 }
 
 TEST(PathTracer, StopsWhenTold) {
@@ -209,9 +211,11 @@ TEST(PathTracer, RefusesWhatCannotBeDrawn) {
   EXPECT_THROW(PathTracer(model, EnvMap(), {.view = kView}), std::invalid_argument);
   EXPECT_THROW(PathTracer(model, even_map(-1), {.view = kView}), std::invalid_argument);
   EXPECT_THROW(PathTracer(model, even_map(1), {}), std::invalid_argument);
-  EXPECT_THROW(PathTracer(model, even_map(1), {.view = kView, .ground = Ground{.up = {0, 2, 0}}}), std::invalid_argument);
+  EXPECT_THROW(PathTracer(model, even_map(1), {.view = kView, .ground = Ground{.up = {0, 2, 0}}}),
+               std::invalid_argument);
   EXPECT_THROW(PathTracer(model, even_map(1), {.view = kView, .lamps = {{.radius_m = 0}}}), std::invalid_argument);
-  EXPECT_THROW(PathTracer(model, even_map(1), {.view = kView, .backdrop = Backdrop{kView, Image(3, 3, 3)}}), std::invalid_argument);
+  EXPECT_THROW(PathTracer(model, even_map(1), {.view = kView, .backdrop = Backdrop{kView, Image(3, 3, 3)}}),
+               std::invalid_argument);
   EXPECT_THROW(PathTracer(model, even_map(1), {.view = kView}).render({.samples = 0}), std::invalid_argument);
 }
 

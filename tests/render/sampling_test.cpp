@@ -22,7 +22,8 @@ TEST(Sobol, EverySliceOfEqualAreaHoldsOneSample) {
           SobolSampler random(key, s);
           for (int skipped = 0; skipped < dimension; ++skipped) random.pair();
           const Eigen::Vector2f at = random.pair();
-          boxes.insert(static_cast<int>(at.x() * static_cast<float>(columns)) * rows + static_cast<int>(at.y() * static_cast<float>(rows)));
+          boxes.insert(static_cast<int>(at.x() * static_cast<float>(columns)) * rows +
+                       static_cast<int>(at.y() * static_cast<float>(rows)));
         }
         EXPECT_EQ(boxes.size(), 16U) << key << ' ' << columns << ' ' << dimension;
       }
@@ -60,8 +61,9 @@ double expected_share(const MapSampler& sampler, const EnvMap& map, int x, int y
   constexpr int kPoints = 16;
   double sum = 0;
   for (int i = 0; i < kPoints * kPoints; ++i) {
-    const Eigen::Vector2f uv((static_cast<float>(x) + (static_cast<float>(i % kPoints) + 0.5F) / kPoints) / static_cast<float>(map.width()),
-                             (static_cast<float>(y) + (static_cast<float>(i / kPoints) + 0.5F) / kPoints) / static_cast<float>(map.height()));
+    const Eigen::Vector2f uv(
+        (static_cast<float>(x) + (static_cast<float>(i % kPoints) + 0.5F) / kPoints) / static_cast<float>(map.width()),
+        (static_cast<float>(y) + (static_cast<float>(i / kPoints) + 0.5F) / kPoints) / static_cast<float>(map.height()));
     sum += sampler.look(direction_from_uv(uv)).density * solid_angle_density(uv.y());
   }
   return sum / (kPoints * kPoints) / static_cast<double>(map.radiance().pixel_count());

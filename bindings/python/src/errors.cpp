@@ -6,6 +6,7 @@
 #include <array>
 #include <exception>
 #include <string>
+#include <utility>
 
 namespace faceprobe::python {
 
@@ -60,7 +61,7 @@ void bind_errors(py::module_& module) {
   }
   py::register_exception_translator([](std::exception_ptr pointer) {
     try {
-      if (pointer) std::rethrow_exception(pointer);
+      if (pointer) std::rethrow_exception(std::move(pointer));
     } catch (const Error& error) {
       raise(error);
     }

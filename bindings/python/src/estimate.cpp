@@ -113,7 +113,7 @@ void bind_result(py::module_& module) {
           "focal_px", [](const Estimated& e) { return e.estimate.camera.focal_px; },
           "Focal length in pixels of the photo.")
       .def_property_readonly(
-          "warnings", [](const Estimated& e) { return e.estimate.warnings; }, "list of sentences.")
+          "warnings", [](const Estimated& e) { return sentences(e.estimate.warnings); }, "list of sentences.")
       .def_property_readonly("timings", &timings_of, "list of (stage, seconds), in order.")
       .def(
           "to_json", [](const Estimated& e) { return pipeline::report_json(e.estimate, e.photo, e.options, e.source); },

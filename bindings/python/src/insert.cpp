@@ -176,7 +176,7 @@ Arrays are read-only views without a copy, valid however long they are kept.)");
           "normal", [](const InsertedPtr& i) { return view(i, i->done.layers.normal); },
           "float32 (h, w, 3): camera frame; 0 off the object.")
       .def_property_readonly(
-          "warnings", [](const Inserted& i) { return i.warnings; }, "list of sentences.")
+          "warnings", [](const Inserted& i) { return sentences(i.warnings); }, "list of sentences.")
       .def(
           "to_json", [](const Inserted& i) { return pipeline::insertion_json(i.done, i.scene, i.photo, i.object); },
           "What `faceprobe insert --json` prints: schema faceprobe-insert/1.")

@@ -24,7 +24,7 @@ struct ModelLimits {
   int max_vertices = 15'000'000;                  // as above
   int max_parts = 10'000;                         // meshes, nodes, materials, groups, each
   std::int64_t max_texture_pixels = 100'000'000;  // of all materials together
-  io::Limits picture = {};                             // of each texture
+  io::Limits picture = {};                        // of each texture
 
   // Empty when usable, else a sentence that says which value is wrong.
   std::string validate() const;

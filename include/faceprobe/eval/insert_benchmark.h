@@ -12,10 +12,10 @@
 namespace faceprobe::eval {
 
 struct InsertBenchmark {
-  int samples = 50;      // photos, spread evenly over the data set; those that show less than 5 % skin are left out
-  int rays = 128;        // per pixel; what noise they leave counts as error
-  int nside = 16;        // of the methods' sphere grid
-  int rows = 0;          // of photos in the picture
+  int samples = 50;  // photos, spread evenly over the data set; those that show less than 5 % skin are left out
+  int rays = 128;    // per pixel; what noise they leave counts as error
+  int nside = 16;    // of the methods' sphere grid
+  int rows = 0;      // of photos in the picture
   int threads = 0;
   std::function<void(int done, int total)> progress = {};
 
@@ -30,7 +30,7 @@ struct InsertScores {
 // `model`: any place and size; it is stood into the lower corner, nearer than the face. Metrics, in sRGB of 0..255 over what the true picture
 // changes of the photo: "rmse", of the whole; "scaled", after the exposure of the thing that suits it best, within two stops, since a face
 // does not tell how white its skin is; "shadow", of the ground alone. Group: tone. Throws Error(kUsage) for options that do not validate.
-InsertScores measure_insertion(const synth::ShardReader& faces, const std::vector<LightMethod>& methods, const render::Model& model,
-                               const InsertBenchmark& options);
+InsertScores measure_insertion(const synth::ShardReader& faces, const std::vector<LightMethod>& methods,
+                               const render::Model& model, const InsertBenchmark& options);
 
 }  // namespace faceprobe::eval

@@ -33,25 +33,25 @@ struct Scene {
   render::PinholeView view;  // of the whole photo
   EnvMap environment;
   std::vector<render::BallLamp> lamps{};
-  render::Model model;                                // placed, camera frame, metres
-  bool ground = true;                                 // whether it stands on something that takes its shadow
-  Eigen::Vector3f up = Eigen::Vector3f::UnitY();      // of the ground, which touches the model's lowest point
-  std::optional<Eigen::Vector3f> ground_albedo{};     // else from the photo's colour where the model stands
+  render::Model model;                             // placed, camera frame, metres
+  bool ground = true;                              // whether it stands on something that takes its shadow
+  Eigen::Vector3f up = Eigen::Vector3f::UnitY();   // of the ground, which touches the model's lowest point
+  std::optional<Eigen::Vector3f> ground_albedo{};  // else from the photo's colour where the model stands
   std::optional<Matte> matte{};
 };
 
 struct Options {
   render::RenderOptions render{.samples = 256, .noise = 0.03F, .clamp_indirect = 8};
-  bool match_blur = true;   // of the photo's sharpest edges
+  bool match_blur = true;  // of the photo's sharpest edges
   bool match_grain = true;
 
   std::string validate() const;
 };
 
 struct Insertion {
-  Image picture;         // the photo with the thing in it, linear
-  PixelBox box;          // of the photo, what was drawn
-  render::Layers layers; // in the box
+  Image picture;          // the photo with the thing in it, linear
+  PixelBox box;           // of the photo, what was drawn
+  render::Layers layers;  // in the box
   Eigen::Vector3f ground_albedo = Eigen::Vector3f::Zero();
   float blur_px = 0;     // what the layers were softened by
   Grain grain;           // what was added

@@ -18,7 +18,8 @@ namespace faceprobe::pipeline {
 
 // Writes everything and returns the files, in order. Throws Error(kOutput). `photo`, `object`: what the user called them.
 std::vector<std::filesystem::path> write_insertion(const std::filesystem::path& folder, const insert::Insertion& done,
-                                                   const insert::Scene& scene, const std::string& photo, const std::string& object);
+                                                   const insert::Scene& scene, const std::string& photo,
+                                                   const std::string& object);
 
 std::string insertion_json(const insert::Insertion& done, const insert::Scene& scene, const std::string& photo,
                            const std::string& object);

@@ -14,8 +14,8 @@
 namespace faceprobe::pipeline {
 
 struct RelightOptions {
-  int shading_px = 96;    // long side at which light is computed; it is carried to the crop smoothly
-  float most_gain = 6;    // of the diffuse layer: what is brightened beyond it is noise
+  int shading_px = 96;  // long side at which light is computed; it is carried to the crop smoothly
+  float most_gain = 6;  // of the diffuse layer: what is brightened beyond it is noise
   int threads = 0;
 
   std::string validate() const;
@@ -23,6 +23,7 @@ struct RelightOptions {
 
 // Changes the face in `photo`, the estimate's picture at its own size, linear. `radiance`: cells of a SphereGrid x 3, in the unit of
 // face.light.radiance, and as many. Throws std::invalid_argument for other sizes and options that do not validate.
-void relight(Image& photo, const FaceEstimate& face, const Eigen::MatrixX3f& radiance, const RelightOptions& options = {});
+void relight(Image& photo, const FaceEstimate& face, const Eigen::MatrixX3f& radiance,
+             const RelightOptions& options = {});
 
 }  // namespace faceprobe::pipeline

@@ -17,16 +17,17 @@ enum class MaterialKind {
   kDiffuse,  // Lambert
   kMetal,    // GGX lobe (Walter et al. 2007) under Schlick's Fresnel term, which goes from `colour` to white
   kPlastic,  // Lambert under a dielectric coat; the viewer's angle alone shares the light between the two, so that no energy is lost
-  kGlass,    // smooth dielectric body: mirrors and refracts, exact Fresnel terms; `colour` tints what passes
+  kGlass,  // smooth dielectric body: mirrors and refracts, exact Fresnel terms; `colour` tints what passes
 };
 
 struct Material {
   std::string name{};
   MaterialKind kind = MaterialKind::kDiffuse;
-  Eigen::Vector3f colour = Eigen::Vector3f::Constant(0.8F);  // linear; albedo, or reflectance at normal incidence of a metal
-  Image texture{};  // linear, three channels, v up; multiplies colour; empty = none
-  float roughness = 0;   // GGX alpha = roughness^2 (Burley 2012, as in glTF and Blender); below kSmooth an ideal mirror
-  float index = 1.5F;    // of refraction: of a plastic's coat, of glass
+  Eigen::Vector3f colour =
+      Eigen::Vector3f::Constant(0.8F);  // linear; albedo, or reflectance at normal incidence of a metal
+  Image texture{};                      // linear, three channels, v up; multiplies colour; empty = none
+  float roughness = 0;  // GGX alpha = roughness^2 (Burley 2012, as in glTF and Blender); below kSmooth an ideal mirror
+  float index = 1.5F;   // of refraction: of a plastic's coat, of glass
 
   // Empty when usable, else a sentence that says which value is wrong.
   std::string validate() const;

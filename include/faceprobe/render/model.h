@@ -40,10 +40,10 @@ void transform(Model& model, const Eigen::Transform<float, 3, Eigen::Affine>& wo
 
 // Scales the model to a size and stands it somewhere.
 struct Placement {
-  float height_m = 0.2F;                              // of its box
-  Eigen::Vector3f foot = Eigen::Vector3f::Zero();     // where the middle of the box's underside goes
-  Eigen::Vector3f up = Eigen::Vector3f::UnitY();      // where its +y goes
-  float turn = 0;                                     // radians about up, positive to the viewer's right seen from the front
+  float height_m = 0.2F;                           // of its box
+  Eigen::Vector3f foot = Eigen::Vector3f::Zero();  // where the middle of the box's underside goes
+  Eigen::Vector3f up = Eigen::Vector3f::UnitY();   // where its +y goes
+  float turn = 0;  // radians about up, positive to the viewer's right seen from the front
 };
 // Throws std::invalid_argument for a model without extent.
 void place(Model& model, const Placement& placement);

@@ -42,7 +42,8 @@ struct Ground {
 struct BallLamp {
   Eigen::Vector3f position = Eigen::Vector3f::Zero();
   float radius_m = 0.05F;
-  Eigen::Vector3f intensity = Eigen::Vector3f::Ones();  // radiance x projected area: irradiance at distance r is intensity / r^2
+  Eigen::Vector3f intensity =
+      Eigen::Vector3f::Ones();  // radiance x projected area: irradiance at distance r is intensity / r^2
 };
 
 // A photo taken by the same camera: what is behind the scene.
@@ -62,7 +63,7 @@ struct SceneOptions {
 };
 
 struct RenderOptions {
-  int samples = 64;      // per pixel, at most
+  int samples = 64;  // per pixel, at most
   int least_samples = 16;
   // Stop a small square of the picture when the root mean square of its pixels' standard errors, over a mid grey or what is brighter, is
   // below this; 0 = all samples everywhere.
@@ -79,8 +80,8 @@ struct RenderOptions {
 
 // view.width_px x height_px each, linear.
 struct Layers {
-  Image object;   // 4 channels: radiance of the model, premultiplied, and its coverage
-  Image shadow;   // 3 channels: light that reaches the ground with the model there, over that without; 1 where no ground is seen
+  Image object;  // 4 channels: radiance of the model, premultiplied, and its coverage
+  Image shadow;  // 3 channels: light that reaches the ground with the model there, over that without; 1 where no ground is seen
   Image ground;   // 1 channel: coverage of the ground disc, behind the model too counted as not covered
   Image depth;    // 1 channel: metres along -z of the model, mean over its share of the pixel; 0 off it
   Image normal;   // 3 channels: mean normal of the model, camera frame; 0 off it
@@ -99,6 +100,7 @@ class PathTracer {
 
   // The same bits for any number of threads. Throws std::invalid_argument when the options do not validate.
   Layers render(const RenderOptions& options = {}) const;
+
  private:
   struct State;
   std::unique_ptr<State> state_;

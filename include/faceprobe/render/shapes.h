@@ -13,10 +13,10 @@
 
 namespace faceprobe::render {
 
-Model sphere();  // material "plastic"
-Model cube();    // edges a little rounded; material "clay"
-Model pot();     // a lathed body with lid, spout and handle, like the well-known teapot; material "plastic"
-Model robot();   // of boxes, balls and rods, in several materials
+Model sphere();         // material "plastic"
+Model cube();           // edges a little rounded; material "clay"
+Model pot();            // a lathed body with lid, spout and handle, like the well-known teapot; material "plastic"
+Model robot();          // of boxes, balls and rods, in several materials
 Model three_spheres();  // side by side: diffuse, matte silver, mirror: the three-sphere protocol's
 
 // Any of them by name: "sphere", "cube", "pot", "robot", "spheres". Throws std::invalid_argument for other names.
