@@ -83,8 +83,10 @@ case_insert_refusals() {
   expect_no_picture 2 "512 x 600, found 120 x 100" "$photo" "${plain[@]}" --matte blank.hdr
   expect_refused 2 "in the picture" insert "$photo" "${plain[@]}" --at 5000 300 -o out "${few_rays[@]}"  # no folder either
   expect_refused 6 "nowhere" insert "$photo" "${plain[@]}" -o nowhere/out.png "${few_rays[@]}"
-  expect_refused 6 "blank.hdr" insert "$photo" "${plain[@]}" -o blank.hdr "${few_rays[@]}"
-  expect_files "$work" stdout stderr blank.hdr
+  expect_refused 2 "out.jpg" insert "$photo" "${plain[@]}" -o out.jpg "${few_rays[@]}"
+  echo "a file where the folder should be" >taken
+  expect_refused 6 "taken" insert "$photo" "${plain[@]}" -o taken "${few_rays[@]}"
+  expect_files "$work" stdout stderr blank.hdr taken
   [ ! -e out ] || fail "a refusal left a folder"
 }
 
