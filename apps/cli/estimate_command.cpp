@@ -31,13 +31,6 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-Orientation orientation_from_name(const std::string& name) {
-  if (name == "openexr") return Orientation::kOpenExr;
-  if (name == "three" || name == "blender") return Orientation::kThree;
-  if (name == "debevec") return Orientation::kDebevec;
-  throw Error(ExitCode::kUsage, "--orient takes openexr, three, blender or debevec, found '" + name + "'.");
-}
-
 bool is_map_file(const std::string& output) {
   std::string extension = std::filesystem::path(output).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
@@ -88,7 +81,7 @@ int run(const Options& options) {
     throw Error(ExitCode::kUsage, "--same-light is for several photos, found one; leave it out.");
   const pipeline::EstimateOptions wanted = estimate_options(options);
   pipeline::OutputOptions output;
-  output.orientation = orientation_from_name(options.orientation);
+  output.orientation = pipeline::orientation_from_name(options.orientation);
   Clock::time_point start = Clock::now();
   const pipeline::Estimator estimator(wanted);
   double models_s = seconds_since(start);

@@ -1,8 +1,8 @@
 #include "eval_stages.h"
+#include "faceprobe/assets/named_model.h"
 #include "faceprobe/eval/insert_benchmark.h"
 #include "faceprobe/io/atomic_file.h"
 #include "faceprobe/io/picture_file.h"
-#include "object_choice.h"
 #include "relight_methods.h"
 
 #include <spdlog/fmt/fmt.h>
@@ -15,7 +15,7 @@ int eval_insert(const EvalOptions& options) {
       insert_methods({.weights = options.weights.empty() ? "" : name_and_file(options.weights[0]).second,
                       .prior = options.prior,
                       .threads = options.threads});
-  const render::Model model = object_named(options.object.empty() ? "spheres" : options.object, "");
+  const render::Model model = assets::model_named(options.object.empty() ? "spheres" : options.object).model;
   const eval::InsertScores scores = eval::measure_insertion(faces, methods, model,
                                                             {.samples = options.samples,
                                                              .rows = options.output.empty() ? 0 : options.rows,

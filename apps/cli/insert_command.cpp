@@ -1,11 +1,10 @@
 #include "commands.h"
-#include "faceprobe/core/color.h"
+#include "faceprobe/assets/named_model.h"
 #include "faceprobe/core/error.h"
 #include "faceprobe/io/picture_file.h"
 #include "faceprobe/pipeline/insertion.h"
 #include "faceprobe/pipeline/insertion_files.h"
 #include "faceprobe/render/shapes.h"
-#include "object_choice.h"
 #include "progress.h"
 #include "shared_options.h"
 
@@ -40,14 +39,7 @@ struct Options : SharedOptions {
 };
 
 Image matte_of(const Options& options) {
-  if (options.matte.empty()) return {};
-  const io::Photo file = io::load_photo(options.matte, options.limits);
-  Image matte(file.linear.width(), file.linear.height(), 1);
-  // A matte's greys are shares, not light.
-  for (int y = 0; y < matte.height(); ++y) {
-    for (int x = 0; x < matte.width(); ++x) matte(x, y) = srgb_from_linear(luminance(file.linear.pixel(x, y)));
-  }
-  return matte;
+  return options.matte.empty() ? Image() : pipeline::matte_from(io::load_photo(options.matte, options.limits));
 }
 
 int run(const Options& options) {
@@ -56,7 +48,8 @@ int run(const Options& options) {
                 "An object is put into one photo, found " + std::to_string(options.inputs.size()) + ".");
   // Before the photo: a typing error should not cost an estimate.
   const bool picture_alone = is_picture_output(options.output);
-  render::Model model = object_named(options.object, options.material);
+  assets::LoadedModel object = assets::model_named(options.object, options.material);
+  for (const std::string& warning : object.warnings) spdlog::warn("{}: {}", options.object, warning);
   pipeline::InsertionOptions where{.depth_m = options.depth_m,
                                    .height_m = options.height_m,
                                    .turn_deg = static_cast<float>(options.turn_deg),
@@ -76,7 +69,7 @@ int run(const Options& options) {
   io::Photo photo = io::load_photo(options.inputs[0], options.limits);
   const pipeline::Estimate estimate = estimator.estimate(photo);
   for (const std::string& warning : estimate.warnings) spdlog::warn("{}", warning);
-  insert::Scene scene = pipeline::scene_for(photo, estimate, std::move(model), where);
+  insert::Scene scene = pipeline::scene_for(photo, estimate, std::move(object.model), where);
   if (options.preview) insert::shrink(photo.linear, scene, kPreviewPx);
   Progress progress("drawing");
   how.render.progress = [&](float share) { return progress.show(share); };
@@ -106,10 +99,10 @@ void add_insert(CLI::App& program, Action& action) {
       ->capture_default_str();
   command
       ->add_option("--object", options->object,
-                   listed(render::shape_names()) + ", or an OBJ, PLY, STL, glTF or GLB file")
+                   assets::listed(render::shape_names()) + ", or an OBJ, PLY, STL, glTF or GLB file")
       ->capture_default_str();
   command->add_option("--material", options->material,
-                      "in place of the object's own: " + listed(render::material_preset_names()));
+                      "in place of the object's own: " + assets::listed(render::material_preset_names()));
   command
       ->add_option("--at", options->at_px,
                    "X Y: pixel of the photo where its foot stands; default: the lower corner with more room")

@@ -1,6 +1,7 @@
 #include "faceprobe/pipeline/insertion.h"
 
 #include "faceprobe/core/angles.h"
+#include "faceprobe/core/color.h"
 #include "faceprobe/core/error.h"
 #include "faceprobe/core/sphere_grid.h"
 #include "faceprobe/insert/spot.h"
@@ -141,6 +142,14 @@ std::string InsertionOptions::validate() const {
   if (horizon_px && !(std::abs(*horizon_px) <= kFarPx))
     return "The horizon must be a number of pixels, not above a million.";
   return {};
+}
+
+Image matte_from(const io::Photo& picture) {
+  Image matte(picture.linear.width(), picture.linear.height(), 1);
+  for (int y = 0; y < matte.height(); ++y) {
+    for (int x = 0; x < matte.width(); ++x) matte(x, y) = srgb_from_linear(luminance(picture.linear.pixel(x, y)));
+  }
+  return matte;
 }
 
 render::PinholeView view_of(const Estimate& estimate) {

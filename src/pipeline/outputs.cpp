@@ -1,5 +1,6 @@
 #include "faceprobe/pipeline/outputs.h"
 
+#include "faceprobe/core/error.h"
 #include "faceprobe/core/color.h"
 #include "faceprobe/core/parallel.h"
 #include "faceprobe/core/version.h"
@@ -115,6 +116,13 @@ std::string orientation_name(Orientation orientation) {
     case Orientation::kDebevec: return "Debevec: rolled by half the width";
     default: return "OpenEXR: centre = +z";
   }
+}
+
+Orientation orientation_from_name(const std::string& name, const std::string& what) {
+  if (name == "openexr") return Orientation::kOpenExr;
+  if (name == "three" || name == "blender") return Orientation::kThree;
+  if (name == "debevec") return Orientation::kDebevec;
+  throw Error(ExitCode::kUsage, what + " takes openexr, three, blender or debevec, found '" + name + "'.");
 }
 
 std::map<std::string, std::string> provenance(const EstimateOptions& options) {

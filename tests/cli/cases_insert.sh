@@ -128,7 +128,8 @@ case_relight() {
   expect_exit 0 relight "$photo" "${quick[@]}" --dim 1 -o dimmed.png
   expect_difference "$photo" dimmed.png 120 100 400 460  # the face, and nothing else
   expect_refused 2 "would stay as it is" relight "$photo" "${quick[@]}" -o same.png
-  expect_refused 2 "--dim" relight "$photo" "${quick[@]}" --dim 1 --map light.exr -o both.png
+  expect_exit 0 estimate "$photo" "${quick[@]}" -o light.exr
+  expect_refused 2 "dim is for" relight "$photo" "${quick[@]}" --dim 1 --map light.exr -o both.png
   expect_refused 3 "no_such_map.exr" relight "$photo" "${quick[@]}" --map no_such_map.exr -o lost.png
-  expect_files "$work" stdout stderr dimmed.png number
+  expect_files "$work" stdout stderr dimmed.png light.exr number
 }

@@ -56,6 +56,29 @@ TEST_F(Relight, ALampAtTheRightLightsTheRight) {
   EXPECT_GT(right, 1.5 * left);
 }
 
+TEST_F(Relight, TheUsualWishesChangeTheLightAsTheySay) {
+  const EstimateOptions options;
+  const Eigen::MatrixX3f& own = face.light.radiance;
+  EXPECT_TRUE(changed_light(face, {.map = {}, .exposure = 1}, options).isApprox(2 * own));
+  const Eigen::MatrixX3f dimmed = changed_light(face, {.map = {}, .dim = 1}, options);
+  EXPECT_LT(dimmed.sum(), own.sum());
+  EXPECT_TRUE((dimmed.array() <= own.array() + 1e-6F).all());
+  // What is in front goes to the right.
+  const SphereGrid grid = SphereGrid::of_cells(own.rows());
+  EnvMap front(64, 32);
+  std::fill_n(front.radiance().pixel(32, 16), 3, 1.0F);
+  const Eigen::MatrixX3f turned = changed_light(face, {.map = front, .turn_deg = 90}, options);
+  Eigen::Index brightest = 0;
+  turned.rowwise().sum().maxCoeff(&brightest);
+  EXPECT_GT(grid.direction(static_cast<int>(brightest)).x(), 0.95F);
+  EXPECT_NEAR(turned.sum() / own.sum(), 1, 0.02);  // as strong; the turn resamples
+  EXPECT_NE(LightChange{}.validate(), "");
+  EXPECT_NE((LightChange{.map = front, .dim = 1}).validate(), "");
+  EXPECT_NE((LightChange{.map = EnvMap(8, 4)}).validate(), "");
+  EXPECT_NE((LightChange{.map = {}, .exposure = 99}).validate(), "");
+  EXPECT_EQ((LightChange{.map = {}, .turn_deg = -20}).validate(), "");
+}
+
 TEST_F(Relight, RefusesWhatDoesNotFit) {
   Image picture = photo;
   EXPECT_THROW(relight(picture, face, Eigen::MatrixX3f::Ones(12, 3)), std::invalid_argument);

@@ -5,6 +5,7 @@
 #include "arrays.h"
 #include "bind.h"
 #include "faceprobe/io/picture_file.h"
+#include "faceprobe/pipeline/outputs.h"
 #include "options.h"
 
 #include <algorithm>
@@ -32,13 +33,13 @@ py::array_t<float> sample(const EnvMap& map, const py::array& directions) {
 }
 
 void save(const EnvMap& map, const std::filesystem::path& path, const std::string& orientation) {
-  const Orientation columns = orientation_from_name(orientation);
+  const Orientation columns = pipeline::orientation_from_name(orientation, "orientation");
   const py::gil_scoped_release release;
   io::write_env_map(path, map, columns);
 }
 
 MapPtr read(const std::filesystem::path& path, const std::string& orientation) {
-  const Orientation columns = orientation_from_name(orientation);
+  const Orientation columns = pipeline::orientation_from_name(orientation, "orientation");
   const py::gil_scoped_release release;
   return std::make_shared<EnvMap>(io::read_env_map(path, columns));
 }

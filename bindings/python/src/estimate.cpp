@@ -90,7 +90,7 @@ std::vector<std::pair<std::string, double>> timings_of(const Estimated& estimate
 
 std::vector<std::filesystem::path> save(const Estimated& estimated, const std::filesystem::path& folder,
                                         const std::string& orientation, bool layers, bool overview) {
-  const pipeline::OutputOptions output{orientation_from_name(orientation), layers, overview};
+  const pipeline::OutputOptions output{pipeline::orientation_from_name(orientation, "orientation"), layers, overview};
   const py::gil_scoped_release release;
   return pipeline::write_outputs(folder, estimated.estimate, estimated.photo, estimated.options, estimated.source,
                                  output);

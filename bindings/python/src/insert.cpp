@@ -5,13 +5,11 @@
 #include "arrays.h"
 #include "bind.h"
 #include "estimate.h"
-#include "faceprobe/assets/model.h"
-#include "faceprobe/core/color.h"
+#include "faceprobe/assets/named_model.h"
 #include "faceprobe/core/error.h"
 #include "faceprobe/io/picture_file.h"
 #include "faceprobe/pipeline/insertion.h"
 #include "faceprobe/pipeline/insertion_files.h"
-#include "faceprobe/render/shapes.h"
 #include "options.h"
 
 #include <algorithm>
@@ -31,50 +29,6 @@ struct Inserted {
 using InsertedPtr = std::shared_ptr<Inserted>;
 
 using MatteSource = std::variant<py::array, std::filesystem::path>;
-
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
-bool is_among(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-// One of the program's shapes, or a file.
-render::Model model_of(const std::filesystem::path& object, const std::string& material,
-                       std::vector<std::string>& warnings) {
-  const std::vector<std::string>& presets = render::material_preset_names();
-  if (!material.empty() && !is_among(presets, material))
-    throw Error(ExitCode::kUsage,
-                "There is no material called '" + material + "'; take one of " + listed(presets) + ".");
-  render::Model model;
-  if (is_among(render::shape_names(), object.string())) {
-    model = render::shape(object.string());
-  } else if (object.extension().empty()) {
-    throw Error(ExitCode::kUsage, "There is no object called '" + object.string() + "'; take one of " +
-                                      listed(render::shape_names()) + ", or name an OBJ, PLY, STL, glTF or GLB file.");
-  } else {
-    assets::LoadedModel loaded = assets::load_model(object);
-    warnings = std::move(loaded.warnings);
-    model = std::move(loaded.model);
-  }
-  if (material.empty()) return model;
-  model.materials = {render::material_preset(material)};
-  for (render::TriangleMesh& mesh : model.meshes) mesh.material = 0;
-  return model;
-}
-
-// A file's greys are shares, not light.
-Image matte_from_file(const std::filesystem::path& path) {
-  const io::Photo file = io::load_photo(path);
-  Image matte(file.linear.width(), file.linear.height(), 1);
-  for (int y = 0; y < matte.height(); ++y) {
-    for (int x = 0; x < matte.width(); ++x) matte(x, y) = srgb_from_linear(luminance(file.linear.pixel(x, y)));
-  }
-  return matte;
-}
 
 Image matte_from_array(const py::array& array) {
   Image matte = image_from<float>(array, "matte", 1);
@@ -116,8 +70,9 @@ InsertedPtr insert_into(const py::object& photo, const std::filesystem::path& ob
   auto out = std::make_shared<Inserted>();
   out->photo = source.name();
   out->object = object.string();
-  render::Model model = model_of(object, material.value_or(""), out->warnings);
-  if (matte_file) where.matte = matte_from_file(*matte_file);
+  assets::LoadedModel model = assets::model_named(object, material.value_or(""));
+  out->warnings = std::move(model.warnings);
+  if (matte_file) where.matte = pipeline::matte_from(io::load_photo(*matte_file));
   const io::Photo loaded = std::move(source).load();
   if (estimated) {
     check_same_size(loaded, *estimated);
@@ -128,7 +83,7 @@ InsertedPtr insert_into(const py::object& photo, const std::filesystem::path& ob
     const std::vector<std::string>& more = estimated->estimate.warnings;
     out->warnings.insert(out->warnings.end(), more.begin(), more.end());
   }
-  out->scene = pipeline::scene_for(loaded, estimated->estimate, std::move(model), where);
+  out->scene = pipeline::scene_for(loaded, estimated->estimate, std::move(model.model), where);
   out->done = insert::insert_model(loaded.linear, out->scene, how);
   return out;
 }

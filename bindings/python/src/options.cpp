@@ -65,13 +65,6 @@ void check_threads(int threads) {
     throw Error(ExitCode::kUsage, "threads must be from 0 to 1024, found " + std::to_string(threads) + ".");
 }
 
-Orientation orientation_from_name(const std::string& name) {
-  if (name == "openexr") return Orientation::kOpenExr;
-  if (name == "three" || name == "blender") return Orientation::kThree;
-  if (name == "debevec") return Orientation::kDebevec;
-  throw Error(ExitCode::kUsage, "orientation takes openexr, three, blender or debevec, found '" + name + "'.");
-}
-
 pipeline::EstimateOptions options_from(const OptionValues& values) {
   check_device(values.device);
   check_threads(values.threads);

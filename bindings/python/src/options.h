@@ -46,8 +46,6 @@ pipeline::EstimateOptions options_from(const OptionValues& values);
 
 // For other functions that take threads alone. Throws Error(kUsage).
 void check_threads(int threads);
-// "openexr", "three", "blender" or "debevec". Throws Error(kUsage).
-Orientation orientation_from_name(const std::string& name);
 
 // Calls define(keyword arguments...), in the order that taking_options() has them.
 template <class Define>

@@ -31,6 +31,9 @@ struct InsertionOptions {
   std::string validate() const;
 };
 
+// A matte from a picture of one, white where a person stands; its greys are shares, not light.
+Image matte_from(const io::Photo& picture);
+
 // The photo as a view for renderers.
 render::PinholeView view_of(const Estimate& estimate);
 

@@ -27,6 +27,8 @@ std::map<std::string, std::string> provenance(const EstimateOptions& options);
 
 // How the columns of a map are laid out, for people and attributes.
 std::string orientation_name(Orientation orientation);
+// Of what users call it: "openexr", "three" or "blender", "debevec". Throws Error(kUsage), which calls the value `what`.
+Orientation orientation_from_name(const std::string& name, const std::string& what = "--orient");
 
 // Writes everything and returns the files, in order. Throws Error(kOutput). `source` is what the user called the photo.
 std::vector<std::filesystem::path> write_outputs(const std::filesystem::path& folder, const Estimate& estimate,

@@ -21,6 +21,19 @@ struct RelightOptions {
   std::string validate() const;
 };
 
+// The usual wishes.
+struct LightChange {
+  EnvMap map{};         // lights the faces instead, as strong as their own light; empty = their own
+  int dim = 0;          // so many of the photo's main lights are put out, the strongest first; not with a map
+  double turn_deg = 0;  // of the light about the vertical, to the right seen from above the photo
+  double exposure = 0;  // stops
+
+  // Empty when usable, else a sentence that says which value is wrong; a change that changes nothing is wrong too.
+  std::string validate() const;
+};
+// A face's light so changed, on the cells of its own. `options`: those of the estimate.
+Eigen::MatrixX3f changed_light(const FaceEstimate& face, const LightChange& change, const EstimateOptions& options);
+
 // Changes the face in `photo`, the estimate's picture at its own size, linear. `radiance`: cells of a SphereGrid x 3, in the unit of
 // face.light.radiance, and as many. Throws std::invalid_argument for other sizes and options that do not validate.
 void relight(Image& photo, const FaceEstimate& face, const Eigen::MatrixX3f& radiance,
