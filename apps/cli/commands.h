@@ -12,6 +12,7 @@ using Action = std::function<int()>;
 void add_estimate(CLI::App& program, Action& action);
 void add_separate(CLI::App& program, Action& action);
 void add_triangulate(CLI::App& program, Action& action);
+void add_doctor(CLI::App& program, Action& action);
 void add_relight(CLI::App& program, Action& action);
 void add_insert(CLI::App& program, Action& action);
 void add_info(CLI::App& program, Action& action);

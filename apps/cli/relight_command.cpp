@@ -26,7 +26,8 @@ int run(const Options& options) {
     throw Error(ExitCode::kUsage, "One photo is relit at a time, found " + std::to_string(options.inputs.size()) + ".");
   if (!is_picture_output(options.output))
     throw Error(ExitCode::kUsage, "The relit photo is one picture; name it -o NAME.png, .exr or .hdr.");
-  pipeline::LightChange change{.map = {}, .dim = options.dim, .turn_deg = options.turn_deg, .exposure = options.exposure};
+  pipeline::LightChange change{
+      .map = {}, .dim = options.dim, .turn_deg = options.turn_deg, .exposure = options.exposure};
   if (!options.map.empty()) change.map = io::read_env_map(options.map, Orientation::kOpenExr, options.limits);
   if (const std::string fault = change.validate(); !fault.empty()) throw Error(ExitCode::kUsage, fault);
   const pipeline::Estimator estimator(estimate_options(options));
@@ -35,7 +36,8 @@ int run(const Options& options) {
   for (const std::string& warning : estimate.warnings) spdlog::warn("{}", warning);
   Image picture = photo.linear;
   for (const pipeline::FaceEstimate& face : estimate.faces)
-    pipeline::relight(picture, face, pipeline::changed_light(face, change, estimator.options()), {.threads = options.threads});
+    pipeline::relight(picture, face, pipeline::changed_light(face, change, estimator.options()),
+                      {.threads = options.threads});
   io::write_picture(options.output, picture);
   spdlog::info("{} face(s), wrote {}", estimate.faces.size(), options.output);
   return 0;

@@ -14,7 +14,8 @@ std::string LightChange::validate() const {
   const bool has_map = map.width() > 0;
   if (dim < 0 || dim > kMostLights) return "dim must be from 0 to 5 lights, found " + std::to_string(dim) + ".";
   if (!std::isfinite(turn_deg)) return "turn must be a number of degrees.";
-  if (!(std::abs(exposure) <= kMostStops)) return "exposure must be from -30 to 30 stops, found " + std::to_string(exposure) + ".";
+  if (!(std::abs(exposure) <= kMostStops))
+    return "exposure must be from -30 to 30 stops, found " + std::to_string(exposure) + ".";
   if (!has_map && dim == 0 && turn_deg == 0 && exposure == 0)
     return "The light would stay as it is; give a map, lights to dim, a turn or an exposure.";
   if (has_map && dim > 0) return "dim is for the photo's own lights; leave it or the map out.";
@@ -27,7 +28,8 @@ Eigen::MatrixX3f changed_light(const FaceEstimate& face, const LightChange& chan
   const lighting::Light& own = face.light;
   const SphereGrid grid = SphereGrid::of_cells(own.radiance.rows());
   Eigen::MatrixX3f light = own.radiance;
-  if (change.dim > 0) light = lighting::without_main_lights(light, grid, change.dim, options.main_lights, own.confidence);
+  if (change.dim > 0)
+    light = lighting::without_main_lights(light, grid, change.dim, options.main_lights, own.confidence);
   if (change.map.width() > 0) {
     // A map has no unit that a photo shares: it gets the energy of the light that it replaces.
     const double energy = own.radiance.cast<double>().sum() * grid.cell_solid_angle();

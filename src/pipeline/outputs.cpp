@@ -1,7 +1,7 @@
 #include "faceprobe/pipeline/outputs.h"
 
-#include "faceprobe/core/error.h"
 #include "faceprobe/core/color.h"
+#include "faceprobe/core/error.h"
 #include "faceprobe/core/parallel.h"
 #include "faceprobe/core/version.h"
 #include "faceprobe/io/atomic_file.h"

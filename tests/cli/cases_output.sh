@@ -118,3 +118,11 @@ case_full_disk_leaves_the_old_file() {
   done
   cmp before/environment.exr out/environment.exr || fail "the old map was touched"
 }
+
+case_doctor() {
+  expect_exit 0 doctor --json
+  expect_json faceprobe-doctor/1 "$work/stdout" schema
+  expect_json ON "$work/stdout" ok
+  expect_exit 0 doctor
+  expect_stdout "ok   light: a known lamp"
+}

@@ -92,6 +92,9 @@ case_missing_models() {
     expect_refused 5 "scripts/setup.sh" "$verb" "$photo"
     expect_stderr "$work/nothing"
   done
+  expect_exit 5 doctor
+  expect_stdout "FAIL face_landmark.tflite"
+  expect_stdout "ok   drawing"  # what needs no model is tested all the same
 }
 
 case_damaged_model() {

@@ -9,7 +9,6 @@
 #include "faceprobe/io/picture_file.h"
 #include "options.h"
 
-
 namespace faceprobe::python {
 
 namespace {

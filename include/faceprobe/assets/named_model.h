@@ -13,7 +13,8 @@ namespace faceprobe::assets {
 
 // `material`: a preset (render/material.h) for all of it in place of its own; empty = its own. Throws Error(kUsage) for a name that is no shape's
 // and has no extension, and for a material that is none; Error(kInput) as load_model.
-LoadedModel model_named(const std::filesystem::path& object, const std::string& material = "", const ModelLimits& limits = {});
+LoadedModel model_named(const std::filesystem::path& object, const std::string& material = "",
+                        const ModelLimits& limits = {});
 
 // "a, b, c": for sentences that say what there is.
 std::string listed(const std::vector<std::string>& names);
