@@ -1,6 +1,7 @@
 #include "faceprobe/pipeline/relight.h"
 
 #include "faceprobe/core/angles.h"
+#include "faceprobe/core/error.h"
 #include "faceprobe/core/sphere_grid.h"
 
 #include <Eigen/Geometry>
@@ -19,7 +20,6 @@ std::string LightChange::validate() const {
   if (!has_map && dim == 0 && turn_deg == 0 && exposure == 0)
     return "The light would stay as it is; give a map, lights to dim, a turn or an exposure.";
   if (has_map && dim > 0) return "dim is for the photo's own lights; leave it or the map out.";
-  if (has_map && !(map.integral().sum() > 0)) return "The map holds no light; choose another one.";
   return {};
 }
 
@@ -33,7 +33,9 @@ Eigen::MatrixX3f changed_light(const FaceEstimate& face, const LightChange& chan
   if (change.map.width() > 0) {
     // A map has no unit that a photo shares: it gets the energy of the light that it replaces.
     const double energy = own.radiance.cast<double>().sum() * grid.cell_solid_angle();
-    light = grid_from_env_map(change.map, grid) * static_cast<float>(energy / change.map.integral().sum());
+    const double given = change.map.integral().sum();
+    if (!(given > 0)) throw Error(ExitCode::kInput, "The map holds no light; choose another one.");
+    light = grid_from_env_map(change.map, grid) * static_cast<float>(energy / given);
   }
   if (change.turn_deg != 0) {
     const Eigen::Matrix3f turn =

@@ -1,5 +1,7 @@
 #include "faceprobe/pipeline/relight.h"
 
+#include "faceprobe/core/error.h"
+#include "faceprobe/core/sphere_grid.h"
 #include "portrait.h"
 
 #include <gtest/gtest.h>
@@ -74,7 +76,7 @@ TEST_F(Relight, TheUsualWishesChangeTheLightAsTheySay) {
   EXPECT_NEAR(turned.sum() / own.sum(), 1, 0.02);  // as strong; the turn resamples
   EXPECT_NE(LightChange{}.validate(), "");
   EXPECT_NE((LightChange{.map = front, .dim = 1}).validate(), "");
-  EXPECT_NE((LightChange{.map = EnvMap(8, 4)}).validate(), "");
+  EXPECT_THROW(changed_light(face, {.map = EnvMap(8, 4)}, options), Error);
   EXPECT_NE((LightChange{.map = {}, .exposure = 99}).validate(), "");
   EXPECT_EQ((LightChange{.map = {}, .turn_deg = -20}).validate(), "");
 }

@@ -31,7 +31,7 @@ struct LightChange {
   // Empty when usable, else a sentence that says which value is wrong; a change that changes nothing is wrong too.
   std::string validate() const;
 };
-// A face's light so changed, on the cells of its own. `options`: those of the estimate.
+// A face's light so changed, on the cells of its own. `options`: those of the estimate. Throws Error(kInput) for a map without light.
 Eigen::MatrixX3f changed_light(const FaceEstimate& face, const LightChange& change, const EstimateOptions& options);
 
 // Changes the face in `photo`, the estimate's picture at its own size, linear. `radiance`: cells of a SphereGrid x 3, in the unit of
