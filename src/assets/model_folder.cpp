@@ -41,10 +41,12 @@ fs::path find_companion(const ModelFile& file, const std::string& written, const
   std::ranges::replace(text, '\\', '/');
   for (const std::string& spelling : {text, decoded(text)}) {
     std::error_code problem;
-    const fs::path found = fs::weakly_canonical(file.folder / spelling, problem);
+    fs::path found = fs::weakly_canonical(file.folder / spelling, problem);
     if (fs::path(spelling).is_absolute() || problem || !is_inside(file.folder, found)) {
+      std::string text_of_fault = "names ";
+      text_of_fault.append(what).append(" '").append(written);
       file.refuse(
-          "names " + what + " '" + written +
+          text_of_fault +
           "', which is outside its folder; only files in that folder or below it are read. Put it beside the model "
           "and name it without a path.");
     }

@@ -11,11 +11,11 @@ namespace faceprobe::insert {
 namespace {
 
 constexpr double kMostBlocks = 2500;  // encoding them is what takes the time
-constexpr float kBlack = 2.0F / 255, kWhite = 253.0F / 255;
+constexpr float kBlackCode = 2.0F / 255, kWhiteCode = 253.0F / 255;
 
-bool is_whole(const Image& linear, int left, int top) {
-  static const float black = linear_from_srgb(kBlack);
-  static const float white = linear_from_srgb(kWhite);
+bool block_is_whole(const Image& linear, int left, int top) {
+  static const float black = linear_from_srgb(kBlackCode);
+  static const float white = linear_from_srgb(kWhiteCode);
   const auto within = [](float value) { return value >= black && value <= white; };  // NaN is not
   for (int y = top; y < top + kBlockSide; ++y) {
     const float* first = linear.pixel(left, y);
@@ -67,7 +67,7 @@ std::vector<BlockNoise> measure_blocks(const Image& linear, const BlockFit& fit)
   std::vector<BlockNoise> blocks;
   for (int top = 0; top + kBlockSide <= linear.height(); top += step) {
     for (int left = 0; left + kBlockSide <= linear.width(); left += step) {
-      if (is_whole(linear, left, top)) blocks.push_back(measure(linear, left, top, fit));
+      if (block_is_whole(linear, left, top)) blocks.push_back(measure(linear, left, top, fit));
     }
   }
   return blocks;

@@ -10,7 +10,7 @@ namespace faceprobe::insert {
 namespace {
 
 constexpr std::size_t kMostTiles = 48;
-constexpr float kWhite = 0.98F;  // light of code 253
+constexpr float kWhiteLight = 0.98F;  // light of code 253
 constexpr int kRowStep = 4, kColumnStep = 2;
 
 struct Candidate {
@@ -23,9 +23,10 @@ float light(const Image& linear, int x, int y) {
   return linear.channels() == 3 ? luminance(value) : value[0];
 }
 
-bool is_whole(const Image& linear, int x, int y) {
+bool pixel_is_whole(const Image& linear, int x, int y) {
   const float* value = linear.pixel(x, y);
-  return std::all_of(value, value + linear.channels(), [](float v) { return v < kWhite && v > -kWhite; });  // NaN is not
+  return std::all_of(value, value + linear.channels(),
+                     [](float v) { return v < kWhiteLight && v > -kWhiteLight; });  // NaN is not
 }
 
 // The largest difference across two pixels, on a sparse grid: an edge crosses many of its lines.
@@ -39,8 +40,8 @@ float strongest_difference(const Image& linear, int left, int top) {
       const float down = light(linear, x, y + 1) - light(linear, x, y - 1);
       const float square = across * across + down * down;
       if (!(square > most)) continue;
-      if (is_whole(linear, x + 1, y) && is_whole(linear, x - 1, y) && is_whole(linear, x, y + 1) &&
-          is_whole(linear, x, y - 1)) {
+      if (pixel_is_whole(linear, x + 1, y) && pixel_is_whole(linear, x - 1, y) && pixel_is_whole(linear, x, y + 1) &&
+          pixel_is_whole(linear, x, y - 1)) {
         most = square;
       }
     }
@@ -66,7 +67,9 @@ EdgeTile cut(const Image& linear, const Candidate& from) {
 
 }  // namespace
 
-float whole_luminance(const Image& linear, int x, int y) { return is_whole(linear, x, y) ? light(linear, x, y) : 1.0F; }
+float whole_luminance(const Image& linear, int x, int y) {
+  return pixel_is_whole(linear, x, y) ? light(linear, x, y) : 1.0F;
+}
 
 std::vector<EdgeTile> strongest_edges(const Image& linear) {
   std::vector<Candidate> candidates;

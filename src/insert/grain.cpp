@@ -21,7 +21,7 @@ namespace faceprobe::insert {
 namespace {
 
 constexpr std::size_t kEnoughBlocks = 12;
-constexpr double kNoVariance = 1e-10;  // what encoding in float leaves of a constant
+constexpr double kNoGrain = 1e-10;     // what encoding in float leaves of a constant
 constexpr double kLowShare = 0.05;     // a photo has at least this share of flat blocks
 constexpr double kFlatVariance = 1.4;  // variances of flat blocks stay below this multiple of their median
 
@@ -34,7 +34,7 @@ double variance_at(const Blocks& sorted, double share) {
 // Blocks without any variance were painted, not photographed; unless they are most of the level.
 void drop_painted(Blocks& sorted) {
   const auto grainy =
-      std::find_if(sorted.begin(), sorted.end(), [](const auto& b) { return b.shared.variance > kNoVariance; });
+      std::find_if(sorted.begin(), sorted.end(), [](const auto& b) { return b.shared.variance > kNoGrain; });
   if (2 * (grainy - sorted.begin()) < std::ssize(sorted)) sorted.erase(sorted.begin(), grainy);
 }
 
@@ -57,7 +57,7 @@ Blocks flat_blocks(Blocks blocks) {
 
 float sigma_of(const Blocks& flat) {
   const double variance = variance_at(flat, 0.5);
-  return variance > kNoVariance ? static_cast<float>(std::sqrt(variance)) : 0.0F;
+  return variance > kNoGrain ? static_cast<float>(std::sqrt(variance)) : 0.0F;
 }
 
 // What the fit took from soft grain is given back to its sigma.
@@ -70,7 +70,7 @@ void describe(const Blocks& flat, const BlockFit& fit, Grain& grain) {
     colour.variance += block.colour.variance;
     colour.covariance += block.colour.covariance;
   }
-  const double least = kNoVariance * static_cast<double>(flat.size());
+  const double least = kNoGrain * static_cast<double>(flat.size());
   if (!(shared.variance > least)) return;
   grain.correlation_px = correlation_of(fit, shared.covariance / shared.variance);
   const double kept = fit.expected(grain.correlation_px).variance;

@@ -6,7 +6,7 @@
 namespace faceprobe::insert {
 namespace {
 
-constexpr float kLargestCorrelation = 16;
+constexpr float kMostCorrelationPx = 16;
 constexpr float kMostPerLevel = 2;  // sigma's ratio between neighbouring levels
 // Deviation of rounding to 8 bits. A level with less was smoothed or painted, and does not speak for the others.
 constexpr float kRounding = 0.29F / 255;
@@ -25,7 +25,7 @@ std::string Grain::validate() const {
   for (const float value : sigma) {
     if (!within(value, 1)) return "Grain's sigma must be 0 to 1.";
   }
-  if (!within(correlation_px, kLargestCorrelation) || !within(colour_correlation_px, kLargestCorrelation)) {
+  if (!within(correlation_px, kMostCorrelationPx) || !within(colour_correlation_px, kMostCorrelationPx)) {
     return "Grain's correlation must be 0 to 16 pixels.";
   }
   if (!within(colour, kMostColour)) return "Grain's colour must be 0 to 100.";

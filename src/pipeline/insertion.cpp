@@ -16,10 +16,10 @@ namespace faceprobe::pipeline {
 namespace {
 
 // Where a thing stands unless told: shares of the picture's size and of the face's depth.
-constexpr double kMargin = 0.02;
+constexpr double kSideMargin = 0.02;
 constexpr double kBottom = 0.93;
-constexpr double kSize = 0.35;  // of its longer side, of the picture's shorter one
-constexpr float kFlat = 1e-4F;  // of a model's longest side: what is lower has no height to speak of
+constexpr double kSize = 0.35;       // of its longer side, of the picture's shorter one
+constexpr float kFlatShare = 1e-4F;  // of a model's longest side: what is lower has no height to speak of
 constexpr float kNearer = 0.75F;
 constexpr double kFarPx = 1e6;         // beyond any picture, and within what floats bear
 constexpr float kLampRadiusM = 0.04F;  // a bulb with its shade: triangulation does not tell
@@ -46,7 +46,7 @@ Stand stand_of(const Estimate& estimate, const render::Model& model, const Inser
   const double front = 1 - std::min(0.5, radius_px / view.focal_px);
   const face::Box& box = largest.face.box;
   const bool more_room_right = box.x + 0.5F * box.width < 0.5F * static_cast<float>(view.width_px);
-  const double edge_px = more_room_right ? (1 - kMargin) * view.width_px : kMargin * view.width_px;
+  const double edge_px = more_room_right ? (1 - kSideMargin) * view.width_px : kSideMargin * view.width_px;
   const Eigen::Vector2d unless_told(
       view.centre_x_px + front * (edge_px - view.centre_x_px) + (more_room_right ? -radius_px : radius_px),
       view.centre_y_px + front * (kBottom * view.height_px - view.centre_y_px));
@@ -167,7 +167,7 @@ insert::Scene scene_for(const io::Photo& photo, const Estimate& estimate, render
                                       std::to_string(options.matte.height()) + ".");
   }
   const Eigen::Vector3f size = model.box().sizes();
-  if (!(size.y() > kFlat * size.maxCoeff()))
+  if (!(size.y() > kFlatShare * size.maxCoeff()))
     throw Error(ExitCode::kInput,
                 "The object is flat: it has no height to be placed by. Stand it upright, along +y, in its file.");
   insert::Scene scene;

@@ -17,7 +17,7 @@ namespace {
 constexpr int kNside = 8;  // 768 cells of 7 degrees: shading and skin's lobes are wider
 constexpr float kLeastShare =
     0.02F;  // of the face's mean light, added to both lights: where there is none, nothing can be told
-constexpr float kRimShare = 0.03F;  // of the crop, over which the change fades out at the face's outline
+constexpr float kFadeShare = 0.03F;  // of the crop, over which the change fades out at the face's outline
 
 // Every pixel of a small copy of the face, as rows for the transport.
 struct SmallFace {
@@ -90,7 +90,8 @@ Image share_of_face(const face::FaceGeometry& geometry) {
     for (int x = 0; x < inside.width(); ++x)
       inside(x, y) = Eigen::Map<const Eigen::Vector3f>(geometry.normal_cam.pixel(x, y)).squaredNorm() > 0 ? 1.0F : 0.0F;
   }
-  const float sigma = std::clamp(kRimShare * static_cast<float>(std::max(inside.width(), inside.height())), 0.5F, 60.0F);
+  const float sigma =
+      std::clamp(kFadeShare * static_cast<float>(std::max(inside.width(), inside.height())), 0.5F, 60.0F);
   Image soft = insert::blur(inside, sigma);
   for (float& share : soft.values()) share = std::clamp(2 * share - 1, 0.0F, 1.0F);  // outside nothing changes
   return soft;

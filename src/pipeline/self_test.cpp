@@ -70,7 +70,7 @@ std::string known_light() {
   Eigen::Index brightest = 0;
   found.radiance.rowwise().sum().maxCoeff(&brightest);
   const double off = angle_between_deg(towards, grid.direction(static_cast<int>(brightest)).cast<double>());
-  const std::string text = "a known lamp came back " + std::to_string(off).substr(0, 4) + " degrees off";
+  std::string text = "a known lamp came back " + std::to_string(off).substr(0, 4) + " degrees off";
   if (!(off <= kMostDeg))
     fail(text + ", " + std::to_string(static_cast<int>(kMostDeg)) + " are allowed; please report it.");
   return text;
@@ -87,7 +87,7 @@ std::string furnace() {
   const render::Layers layers =
       render::PathTracer(std::move(ball), even, {.view = {80, 16, 16, 32, 32}}).render({.samples = 64});
   const float light = layers.object(16, 16, 1);
-  const std::string text = "a white ball in an even light of 1 shows " + std::to_string(light).substr(0, 5);
+  std::string text = "a white ball in an even light of 1 shows " + std::to_string(light).substr(0, 5);
   if (!(std::abs(light - 1) <= kMostError)) fail(text + "; please report it.");
   return text;
 }

@@ -1,7 +1,7 @@
 #include "render/bsdf.h"
 
-#include "faceprobe/core/angles.h"
 #include "faceprobe/core/microfacet.h"
+#include "render/numbers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,6 @@
 namespace faceprobe::render {
 namespace {
 
-constexpr float kPi32 = static_cast<float>(kPi);
 constexpr float kGrazing = 1e-4F;  // least cosine: rounding turns normals away from the viewer
 
 // Two directions across a unit vector (Duff et al. 2017).

@@ -1,6 +1,6 @@
 #include "render/ggx.h"
 
-#include "faceprobe/core/angles.h"
+#include "render/numbers.h"
 #include "render/sobol.h"
 
 #include <Eigen/Geometry>
@@ -10,7 +10,6 @@
 namespace faceprobe::render {
 namespace {
 
-constexpr float kPi32 = static_cast<float>(kPi);
 constexpr int kSamples = 1024;  // of the returned share: its error is about .001
 
 }  // namespace

@@ -1,6 +1,6 @@
 #include "render/light_set.h"
 
-#include "faceprobe/core/angles.h"
+#include "render/numbers.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -10,7 +10,6 @@
 namespace faceprobe::render {
 namespace {
 
-constexpr float kPi32 = static_cast<float>(kPi);
 constexpr float kLeastMapChance = 0.2F;
 
 // 1 - cosine of the ball's apparent radius, without cancellation; 2 from inside.

@@ -1,6 +1,7 @@
 #include "render/map_sampler.h"
 
 #include "faceprobe/core/angles.h"
+#include "render/numbers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +11,6 @@ namespace {
 
 constexpr float kTakenOff = 0.5F;   // of the mean, from every texel
 constexpr float kLeastRest = 0.1F;  // of the light, that must be left after it
-constexpr float kPi32 = static_cast<float>(kPi);
 constexpr float kLeastSine = 1e-6F;
 
 // Which interval of `before`, which rises from 0 to 1, holds x, and how far along it x is.

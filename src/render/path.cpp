@@ -1,5 +1,7 @@
 #include "render/path.h"
 
+#include "render/numbers.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,7 +10,6 @@ namespace faceprobe::render {
 namespace {
 
 constexpr int kSurePaths = 3;  // bounces before a path may end by chance
-constexpr float kFar = std::numeric_limits<float>::infinity();
 
 // Power heuristic of Veach & Guibas 1995 for one sample of each way.
 float share_of(float mine, float other) {

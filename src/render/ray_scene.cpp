@@ -1,6 +1,7 @@
 #include "render/ray_scene.h"
 
 #include "faceprobe/core/error.h"
+#include "render/numbers.h"
 #include "render/texture.h"
 
 #include <embree3/rtcore.h>
@@ -13,7 +14,6 @@
 namespace faceprobe::render {
 namespace {
 
-constexpr float kFar = std::numeric_limits<float>::infinity();
 constexpr float kLeastViewCosine = 0.01F;
 
 struct Releaser {

@@ -25,6 +25,8 @@ class RayScene {
  public:
   RayScene(Model model, const std::optional<Ground>& ground);
   ~RayScene();
+  RayScene(const RayScene&) = delete;
+  RayScene& operator=(const RayScene&) = delete;
 
   // The first surface along a ray; false when there is none. Thread-safe.
   bool hit(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction, SurfaceHit& out) const;
