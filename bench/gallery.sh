@@ -29,6 +29,6 @@ put 07 "$portraits/london_fullres/069_03.jpg" --object "$bunny" --material plast
 put 08 "$portraits/london_fullres/099_03.jpg" --object spheres --height 0.06
 put 09 "$portraits/london_fullres/140_03.jpg" --object robot --turn -20
 put 10 "$portraits/london_fullres/173_03.jpg" --object pot --material red
-put 11 "$portraits/london/smiling_front/002_08.jpg" --object cube --turn 30 --height 0.08
+put 11 "$portraits/london/smiling_front/002_08.jpg" --object cube --turn 30 --height 0.05
 put 12 "$portraits/cc0_selfies/zoom_45cm.jpg" --object sphere --material mirror --at 150 700 --distance 0.7 --height 0.15 --no-ground
 montage "$out"/??.png -geometry 400x400+3+3 -tile 4x3 -background '#18191c' -quality 88 "$root/docs/gallery.jpg"
