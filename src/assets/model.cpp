@@ -116,7 +116,7 @@ LoadedModel load(const ModelFile& file) {
 
 LoadedModel load_model(const fs::path& path, const ModelLimits& limits) {
   if (const std::string problem = limits.validate(); !problem.empty()) throw Error(ExitCode::kUsage, problem);
-  const std::string name = "'" + path.string() + "'";
+  const std::string name = std::string("'").append(path.string()) + "'";
   try {
     const fs::path folder = fs::weakly_canonical(fs::absolute(path).parent_path());
     return load({folder / path.filename(), folder, name, limits});

@@ -128,7 +128,7 @@ class PlyReader {
     std::int64_t value = 0;
     const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (fault != std::errc() || end != word.data() + word.size())
-      malformed("'" + std::string(word.substr(0, 40)) + "' stands for a whole number");
+      malformed(std::string("'").append(word.substr(0, 40)) + "' stands for a whole number");
     return value;
   }
 
@@ -199,7 +199,7 @@ class PlyReader {
       const char* first = word.data() + (word.starts_with('+') ? 1 : 0);
       const auto [end, fault] = std::from_chars(first, word.data() + word.size(), number);
       if (fault == std::errc::invalid_argument || end != word.data() + word.size())
-        malformed("'" + word.substr(0, 40) + "' stands for a number");
+        malformed(std::string("'").append(word, 0, 40) + "' stands for a number");
       return number;
     }
     if (rest_.size() < type.size) cut_short();
