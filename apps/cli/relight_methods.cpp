@@ -157,45 +157,47 @@ eval::LightMethod partly_known(const std::string& name, const SharedPtr& shared,
           }};
 }
 
+// What stands beside the whole estimate everywhere.
+eval::LightMethod without_prior(const SharedPtr& shared) {
+  return other_solver("transport without the prior", shared, [shared](const lighting::Observations& o) {
+    return lighting::solve(o, shared->options().solve).radiance;
+  });
+}
+
+eval::LightMethod by_paper(const SharedPtr& shared) {
+  lighting::SolveOptions paper = shared->options().solve;
+  paper.solver = lighting::Solver::kPaper;
+  paper.threads = shared->options().threads;
+  return other_solver("paper", shared,
+                      [paper](const lighting::Observations& o) { return lighting::solve(o, paper).radiance; });
+}
+
+eval::LightMethod by_harmonics(const SharedPtr& shared, const std::shared_ptr<SphereGrid>& grid) {
+  return other_solver("harmonics of order 2 from the shading", shared, [grid](const lighting::Observations& o) {
+    return lighting::radiance_of_harmonics(lighting::fit_harmonics(o, 2), *grid);
+  });
+}
+
 }  // namespace
 
 std::vector<eval::LightMethod> insert_methods(const RelightRows& rows) {
-  const EstimateOptions options = estimate_options(rows);
-  const auto shared = std::make_shared<Shared>(options);
+  const auto shared = std::make_shared<Shared>(estimate_options(rows));
   const auto grid = std::make_shared<SphereGrid>(rows.nside);
-  lighting::SolveOptions paper = options.solve;
-  paper.solver = lighting::Solver::kPaper;
-  paper.threads = options.threads;
-  return {
-      whole("transport", shared),
-      other_solver("transport without the prior", shared,
-                   [options](const lighting::Observations& o) { return lighting::solve(o, options.solve).radiance; }),
-      other_solver("paper", shared,
-                   [paper](const lighting::Observations& o) { return lighting::solve(o, paper).radiance; }),
-      other_solver("harmonics of order 2 from the shading", shared,
-                   [grid](const lighting::Observations& o) {
-                     return lighting::radiance_of_harmonics(lighting::fit_harmonics(o, 2), *grid);
-                   }),
-      other_solver("ambient, as bright as the shading", shared, [grid](const lighting::Observations& o) {
-        const Eigen::RowVector3f level = (o.weight.transpose() * o.shading) / o.weight.sum();
-        return Eigen::MatrixX3f(level.replicate(grid->cell_count(), 1));
-      })};
+  return {whole("transport", shared), without_prior(shared), by_paper(shared), by_harmonics(shared, grid),
+          other_solver("ambient, as bright as the shading", shared, [grid](const lighting::Observations& o) {
+            const Eigen::RowVector3f level = (o.weight.transpose() * o.shading) / o.weight.sum();
+            return Eigen::MatrixX3f(level.replicate(grid->cell_count(), 1));
+          })};
 }
 
 std::vector<eval::LightMethod> relight_methods(const RelightRows& rows) {
   const EstimateOptions options = estimate_options(rows);
   const auto shared = std::make_shared<Shared>(options);
   const auto grid = std::make_shared<SphereGrid>(rows.nside);
-  lighting::SolveOptions paper = options.solve;
-  paper.solver = lighting::Solver::kPaper;
-  paper.threads = options.threads;
   std::vector<eval::LightMethod> methods;
   methods.push_back(whole("transport", shared));
-  methods.push_back(other_solver("transport without the prior", shared, [options](const lighting::Observations& o) {
-    return lighting::solve(o, options.solve).radiance;
-  }));
-  methods.push_back(other_solver(
-      "paper", shared, [paper](const lighting::Observations& o) { return lighting::solve(o, paper).radiance; }));
+  methods.push_back(without_prior(shared));
+  methods.push_back(by_paper(shared));
   methods.push_back(all_known(options));
   if (rows.ablation) {
     EstimateOptions mesh = options;
@@ -204,10 +206,7 @@ std::vector<eval::LightMethod> relight_methods(const RelightRows& rows) {
     methods.push_back(partly_known("normals known", shared, true, false));
     methods.push_back(partly_known("layers known", shared, false, true));
   }
-  methods.push_back(
-      other_solver("harmonics of order 2 from the shading", shared, [grid](const lighting::Observations& o) {
-        return lighting::radiance_of_harmonics(lighting::fit_harmonics(o, 2), *grid);
-      }));
+  methods.push_back(by_harmonics(shared, grid));
   methods.push_back(other_solver("lamp at the brightest highlight", shared,
                                  [grid](const lighting::Observations& o) { return brightest_spot(o, *grid); }));
   if (!rows.training.empty()) {

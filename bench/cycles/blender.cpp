@@ -1,5 +1,6 @@
 #include "cycles/blender.h"
 
+#include "cycles/append_matrix.h"
 #include "cycles/passes.h"
 #include "cycles/run_blender.h"
 #include "faceprobe/core/error.h"
@@ -11,14 +12,6 @@
 namespace faceprobe::bench {
 
 namespace {
-
-template <class Matrix>
-void append(std::ofstream& file, const Matrix& matrix) {
-  using Scalar = typename Matrix::Scalar;
-  const Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rows = matrix;
-  file.write(reinterpret_cast<const char*>(rows.data()),
-             static_cast<std::streamsize>(static_cast<std::size_t>(rows.size()) * sizeof(Scalar)));
-}
 
 CyclesPicture read_passes(const std::filesystem::path& path) {
   const PassFile file(path);

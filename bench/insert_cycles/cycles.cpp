@@ -1,5 +1,6 @@
 #include "insert_cycles/cycles.h"
 
+#include "cycles/append_matrix.h"
 #include "cycles/passes.h"
 #include "cycles/run_blender.h"
 #include "faceprobe/core/error.h"
@@ -13,14 +14,6 @@ namespace faceprobe::bench {
 namespace {
 
 namespace fs = std::filesystem;
-
-template <class Matrix>
-void append(std::ofstream& file, const Matrix& matrix) {
-  using Scalar = typename Matrix::Scalar;
-  const Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rows = matrix;
-  file.write(reinterpret_cast<const char*>(rows.data()),
-             static_cast<std::streamsize>(static_cast<std::size_t>(rows.size()) * sizeof(Scalar)));
-}
 
 nlohmann::json write_mesh(const fs::path& path, const render::TriangleMesh& mesh, const nlohmann::json& material) {
   std::ofstream file(path, std::ios::binary);

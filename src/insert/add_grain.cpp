@@ -12,23 +12,12 @@
 namespace faceprobe::insert {
 namespace {
 
-Box box_of(const Image& where) {
-  Box box{where.width(), where.height(), 0, 0};
-  for (int y = 0; y < where.height(); ++y) {
-    for (int x = 0; x < where.width(); ++x) {
-      if (!(where(x, y) > 0)) continue;
-      box = {std::min(box.left, x), std::min(box.top, y), std::max(box.right, x + 1), y + 1};
-    }
-  }
-  return box;
-}
-
 // The grain of a picture's channels, with a deviation of 1 in their mean.
 class UnitGrain {
  public:
-  UnitGrain(const Box& box, const Grain& grain, int channels, std::uint64_t seed)
+  UnitGrain(const PixelBox& box, const Grain& grain, int channels, std::uint64_t seed)
       : colour_(channels == 3 ? grain.colour : 0), shared_(box, grain.correlation_px, 1, seed, 0),
-        tints_(colour_ > 0 ? box : Box{}, grain.colour_correlation_px, 3, seed, 1) {}
+        tints_(colour_ > 0 ? box : PixelBox{}, grain.colour_correlation_px, 3, seed, 1) {}
   float operator()(int x, int y, int channel) const {
     const float shared = shared_(x, y, 0);
     if (!(colour_ > 0)) return shared;
@@ -73,7 +62,7 @@ void check(const Image& linear, const Image& where, const Grain& grain) {
 
 void add_grain(Image& linear, const Image& where, const Grain& grain, std::uint64_t seed) {
   check(linear, where, grain);
-  const Box box = box_of(where);
+  const PixelBox box = box_of(where).value_or(PixelBox{});
   if (box.width() <= 0) return;
   const UnitGrain unit(box, grain, linear.channels(), seed);
   for (int y = box.top; y < box.bottom; ++y) {

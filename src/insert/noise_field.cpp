@@ -11,7 +11,7 @@ namespace faceprobe::insert {
 namespace {
 
 // Independent normals, each from its own place, `margin` pixels beyond the box on all sides.
-Image white_noise(const Box& box, int margin, int channels, std::uint64_t seed, std::uint64_t purpose) {
+Image white_noise(const PixelBox& box, int margin, int channels, std::uint64_t seed, std::uint64_t purpose) {
   Image noise(box.width() + 2 * margin, box.height() + 2 * margin, channels);
   for (int y = 0; y < noise.height(); ++y) {
     for (int x = 0; x < noise.width(); ++x) {
@@ -26,7 +26,8 @@ Image white_noise(const Box& box, int margin, int channels, std::uint64_t seed, 
 
 }  // namespace
 
-NoiseField::NoiseField(const Box& box, float correlation_px, int channels, std::uint64_t seed, std::uint64_t purpose)
+NoiseField::NoiseField(const PixelBox& box, float correlation_px, int channels, std::uint64_t seed,
+                       std::uint64_t purpose)
     : box_(box) {
   const std::vector<double> half = gaussian_kernel(static_cast<double>(correlation_px));
   margin_ = static_cast<int>(half.size()) - 1;

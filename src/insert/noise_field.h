@@ -6,29 +6,23 @@
 //   const float value = field(20, 30, 0);                              // mean 0, variance 1
 
 #include "faceprobe/core/image.h"
+#include "faceprobe/core/pixel_box.h"
 
 #include <cstdint>
 
 namespace faceprobe::insert {
 
-// Pixels [left, right) x [top, bottom).
-struct Box {
-  int left = 0, top = 0, right = 0, bottom = 0;
-  int width() const { return right - left; }
-  int height() const { return bottom - top; }
-};
-
 // Memory and time grow with the box.
 class NoiseField {
  public:
-  NoiseField(const Box& box, float correlation_px, int channels, std::uint64_t seed, std::uint64_t purpose);
+  NoiseField(const PixelBox& box, float correlation_px, int channels, std::uint64_t seed, std::uint64_t purpose);
   // A pixel of the box, by its place in the picture.
   float operator()(int x, int y, int channel) const {
     return gain_ * noise_(x - box_.left + margin_, y - box_.top + margin_, channel);
   }
 
  private:
-  Box box_;
+  PixelBox box_;
   int margin_ = 0;
   float gain_ = 1;
   Image noise_;

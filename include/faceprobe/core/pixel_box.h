@@ -18,7 +18,8 @@ struct PixelBox {
 };
 
 // `mask`: H x W x 1. Nothing where it is zero everywhere, or empty.
-inline std::optional<PixelBox> box_of(const ByteImage& mask) {
+template <class T>
+std::optional<PixelBox> box_of(const BasicImage<T>& mask) {
   PixelBox box{mask.width(), mask.height(), 0, 0};
   for (int y = 0; y < mask.height(); ++y) {
     for (int x = 0; x < mask.width(); ++x) {
