@@ -16,7 +16,7 @@ debian_packages=(
   libeigen3-dev libopenimageio-dev libopencv-core-dev libopencv-imgproc-dev libopencv-calib3d-dev liblcms2-dev
   libdnnl-dev ocl-icd-opencl-dev  # the first asks for the second when it is configured, and does not depend on it
   libtorch-dev libembree-dev libopenblas-dev libmatio-dev libhdf5-dev libtinyobjloader-dev libassimp-dev libzip-dev
-  nlohmann-json3-dev libcli11-dev libspdlog-dev libnanoflann-dev libgtest-dev
+  libcpp-httplib-dev nlohmann-json3-dev libcli11-dev libspdlog-dev libnanoflann-dev libgtest-dev
   python3-dev python3-numpy pybind11-dev
 )
 developer_packages=(clang clang-format clang-tidy)
@@ -185,6 +185,21 @@ install_samples() {
   done
 }
 
+# What the page is built from and tested with, as web/package-lock.json pins it. Without it everything else still builds.
+install_page() {
+  local folder=$root/web wanted
+  wanted=$(sha256sum <"$folder/package-lock.json")
+  [ "$(cat "$folder/node_modules/.stamp" 2>/dev/null)" != "$wanted" ] || return 0
+  command -v npm >/dev/null || install_debian npm
+  say "fetching the page's packages from npm"
+  if (cd "$folder" && npm ci --ignore-scripts --no-audit --no-fund --no-update-notifier --loglevel error \
+        --fetch-retry-mintimeout 1000 --fetch-retry-maxtimeout 5000 >&2); then
+    echo "$wanted" >"$folder/node_modules/.stamp"
+  else
+    say "the page's npm packages could not be had; \`faceprobe serve\` will have the API and no page."
+  fi
+}
+
 # Unpacks a Debian package into a temporary folder; nothing is installed.
 fetch_deb() {
   command -v apt-get >/dev/null || return 1
@@ -211,6 +226,8 @@ done
 
 install_debian "${debian_packages[@]}"
 if [ $dev = 1 ]; then install_debian "${developer_packages[@]}"; fi
+
+install_page
 
 # The stamp holds this script's hash: a changed pin is a changed script. Presence of the files is looked at each time,
 # their contents only when the stamp is not there.

@@ -13,9 +13,13 @@ void add_estimate(CLI::App& program, Action& action);
 void add_separate(CLI::App& program, Action& action);
 void add_triangulate(CLI::App& program, Action& action);
 void add_doctor(CLI::App& program, Action& action);
+// These two read the program when they run, so that what is added after them is in their text too.
+void add_manual(CLI::App& program, Action& action);
+void add_completion(CLI::App& program, Action& action);
 void add_relight(CLI::App& program, Action& action);
 void add_insert(CLI::App& program, Action& action);
 void add_info(CLI::App& program, Action& action);
+void add_serve(CLI::App& program, Action& action);
 void add_synth(CLI::App& program, Action& action);
 void add_mesh(CLI::App& program, Action& action);
 void add_trace(CLI::App& program, Action& action);

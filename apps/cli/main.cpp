@@ -56,6 +56,9 @@ int main(int argc, char** argv) {
   cli::add_insert(program, action);
   cli::add_info(program, action);
   cli::add_doctor(program, action);
+#ifdef FACEPROBE_HAS_SERVE
+  cli::add_serve(program, action);
+#endif
 #ifdef FACEPROBE_HAS_SYNTH
   cli::add_synth(program, action);
   cli::add_mesh(program, action);

@@ -1,8 +1,6 @@
 #include "commands.h"
 #include "faceprobe/core/error.h"
-#include "faceprobe/io/atomic_file.h"
 #include "faceprobe/io/photo.h"
-#include "faceprobe/io/picture_file.h"
 #include "faceprobe/pipeline/room.h"
 #include "shared_options.h"
 
@@ -31,17 +29,12 @@ int run(const Options& options) {
   for (const std::string& warning : estimate.warnings) spdlog::warn("{}", warning);
   const pipeline::Room room = pipeline::find_lamps(estimate);
   const std::filesystem::path folder = options.output;
-  io::create_folder(folder);
-  io::write_picture(folder / "room.png", pipeline::draw_room(room));
-  io::write_file_atomically(folder / "room.gltf",
-                            pipeline::room_gltf(room, estimate.camera, estimate.photo_width, estimate.photo_height));
-  const std::string json = pipeline::room_json(room, options.inputs[0]);
-  io::write_file_atomically(folder / "room.json", json);
+  pipeline::write_room(folder, room, estimate, options.inputs[0]);
   std::size_t near = 0;
   for (const lighting::Lamp& lamp : room.lamps) near += lamp.near ? 1 : 0;
   spdlog::info("{} faces, {} lamps in the room, {} lights from afar; wrote {}", room.faces.size(), near,
                room.lamps.size() - near, folder.string());
-  if (options.json) std::fputs(json.c_str(), stdout);
+  if (options.json) std::fputs(pipeline::room_json(room, options.inputs[0]).c_str(), stdout);
   return 0;
 }
 
@@ -52,6 +45,7 @@ void add_triangulate(CLI::App& program, Action& action) {
   CLI::App* command = program.add_subcommand("triangulate", "where the lamps stand, from a photo of several faces");
   add_inputs(*command, *options);
   command->add_option("-o,--output", options->output, "folder for room.json, room.gltf and room.png")
+      ->type_name("DIR")
       ->capture_default_str();
   command->add_flag("--json", options->json, "print room.json on stdout");
   add_face_options(*command, *options);

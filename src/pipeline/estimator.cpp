@@ -82,9 +82,9 @@ LightResult Estimator::joint(const std::vector<FaceEvidence>& faces) const {
   return light_result(impl_->light_of(joint_observations(faces), all_shown), impl_->options);
 }
 
-Estimate Estimator::estimate(const io::Photo& photo) const {
+Estimate Estimator::estimate(const io::Photo& photo, const StageDone& stage_done) const {
   Estimate out;
-  Stopwatch watch(out.timings);
+  Stopwatch watch(out.timings, stage_done);
   const CameraChoice choice = camera_of(photo, impl_->options);
   out.photo_width = photo.linear.width();
   out.photo_height = photo.linear.height();

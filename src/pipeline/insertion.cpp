@@ -26,41 +26,7 @@ constexpr float kLampRadiusM = 0.04F;  // a bulb with its shade: triangulation d
 
 float depth_of(const FaceEstimate& face) { return static_cast<float>(-face.face.position_m().z()); }
 
-// Foot and height of the thing.
-struct Stand {
-  Eigen::Vector3f foot;
-  float height_m = 0;
-};
-Stand stand_of(const Estimate& estimate, const render::Model& model, const InsertionOptions& options) {
-  const render::PinholeView view = view_of(estimate);
-  const FaceEstimate& largest = estimate.faces[estimate.largest];
-  const float depth_m = options.depth_m.value_or(kNearer * depth_of(largest));
-  const Eigen::Vector3f size = model.box().sizes();
-  const double across_per_height = std::hypot(size.x(), size.z()) / std::max(1e-9F, size.y());
-  const double px_per_m = view.focal_px / static_cast<double>(depth_m);
-  const double room_px = kSize * std::min(view.width_px, view.height_px);
-  const double height_m =
-      options.height_m ? static_cast<double>(*options.height_m) : room_px / std::max(1.0, across_per_height) / px_per_m;
-  // Its whole width in the picture, however it is turned; and its front, which is nearer than the foot, spreads from the middle.
-  const double radius_px = 0.5 * across_per_height * height_m * px_per_m;
-  const double front = 1 - std::min(0.5, radius_px / view.focal_px);
-  const face::Box& box = largest.face.box;
-  const bool more_room_right = box.x + 0.5F * box.width < 0.5F * static_cast<float>(view.width_px);
-  const double edge_px = more_room_right ? (1 - kSideMargin) * view.width_px : kSideMargin * view.width_px;
-  const Eigen::Vector2d unless_told(
-      view.centre_x_px + front * (edge_px - view.centre_x_px) + (more_room_right ? -radius_px : radius_px),
-      view.centre_y_px + front * (kBottom * view.height_px - view.centre_y_px));
-  const Eigen::Vector2d at = options.at_px.value_or(unless_told);
-  return {insert::point_at(view, at.x(), at.y(), depth_m), static_cast<float>(height_m)};
-}
-
-Eigen::Vector3f up_of(const Estimate& estimate, const InsertionOptions& options) {
-  if (options.horizon_px) return insert::up_from_horizon(view_of(estimate), *options.horizon_px);
-  std::vector<Eigen::Vector3f> heads;
-  for (const FaceEstimate& face : estimate.faces)
-    heads.emplace_back(face.face.camera_from_face.linear().col(1).cast<float>());
-  return insert::up_from_heads(heads);
-}
+const FaceEstimate& largest_face(const Estimate& estimate) { return estimate.faces[estimate.largest]; }
 
 const FaceEstimate& nearest_face(const Estimate& estimate, const Eigen::Vector3f& foot, std::size_t& index) {
   const auto distance = [&](const FaceEstimate& face) { return (face.face.position_m().cast<float>() - foot).norm(); };
@@ -104,7 +70,7 @@ insert::Matte matte_of(const Estimate& estimate, const Image& given) {
                       Image(estimate.photo_width, estimate.photo_height, 1)};
   if (!given.empty()) {
     matte.cover = given;
-    std::fill(matte.depth_m.values().begin(), matte.depth_m.values().end(), depth_of(estimate.faces[estimate.largest]));
+    std::fill(matte.depth_m.values().begin(), matte.depth_m.values().end(), depth_of(largest_face(estimate)));
     return matte;
   }
   for (const FaceEstimate& face : estimate.faces) {
@@ -157,6 +123,35 @@ render::PinholeView view_of(const Estimate& estimate) {
   return {camera.focal_px, camera.centre_x_px, camera.centre_y_px, estimate.photo_width, estimate.photo_height};
 }
 
+Eigen::Vector3f up_in(const Estimate& estimate, const InsertionOptions& options) {
+  if (options.horizon_px) return insert::up_from_horizon(view_of(estimate), *options.horizon_px);
+  std::vector<Eigen::Vector3f> heads;
+  for (const FaceEstimate& face : estimate.faces)
+    heads.emplace_back(face.face.camera_from_face.linear().col(1).cast<float>());
+  return insert::up_from_heads(heads);
+}
+
+Spot spot_for(const Estimate& estimate, const render::Model& model, const InsertionOptions& options) {
+  const render::PinholeView view = view_of(estimate);
+  const float depth_m = options.depth_m.value_or(kNearer * depth_of(largest_face(estimate)));
+  const Eigen::Vector3f size = model.box().sizes();
+  const double across_per_height = std::hypot(size.x(), size.z()) / std::max(1e-9F, size.y());
+  const double px_per_m = view.focal_px / static_cast<double>(depth_m);
+  const double room_px = kSize * std::min(view.width_px, view.height_px);
+  const double height_m =
+      options.height_m ? static_cast<double>(*options.height_m) : room_px / std::max(1.0, across_per_height) / px_per_m;
+  // Its whole width in the picture, however it is turned; and its front, which is nearer than the foot, spreads from the middle.
+  const double radius_px = 0.5 * across_per_height * height_m * px_per_m;
+  const double front = 1 - std::min(0.5, radius_px / view.focal_px);
+  const face::Box& box = largest_face(estimate).face.box;
+  const bool more_room_right = box.x + 0.5F * box.width < 0.5F * static_cast<float>(view.width_px);
+  const double edge_px = more_room_right ? (1 - kSideMargin) * view.width_px : kSideMargin * view.width_px;
+  const Eigen::Vector2d unless_told(
+      view.centre_x_px + front * (edge_px - view.centre_x_px) + (more_room_right ? -radius_px : radius_px),
+      view.centre_y_px + front * (kBottom * view.height_px - view.centre_y_px));
+  return {options.at_px.value_or(unless_told), depth_m, static_cast<float>(height_m)};
+}
+
 insert::Scene scene_for(const io::Photo& photo, const Estimate& estimate, render::Model model,
                         const InsertionOptions& options) {
   if (const std::string fault = options.validate(); !fault.empty()) throw Error(ExitCode::kUsage, fault);
@@ -172,15 +167,15 @@ insert::Scene scene_for(const io::Photo& photo, const Estimate& estimate, render
                 "The object is flat: it has no height to be placed by. Stand it upright, along +y, in its file.");
   insert::Scene scene;
   scene.view = view_of(estimate);
-  scene.up = up_of(estimate, options);
+  scene.up = up_in(estimate, options);
   scene.ground = options.ground;
   scene.model = std::move(model);
-  const Stand stand = stand_of(estimate, scene.model, options);
-  render::place(scene.model, {.height_m = stand.height_m,
-                              .foot = stand.foot,
-                              .up = scene.up,
-                              .turn = static_cast<float>(radians(options.turn_deg))});
-  light_scene(estimate, stand.foot, options.main_lights, scene);
+  const Spot spot = spot_for(estimate, scene.model, options);
+  const Eigen::Vector3f foot = insert::point_at(scene.view, spot.at_px.x(), spot.at_px.y(), spot.depth_m);
+  render::place(
+      scene.model,
+      {.height_m = spot.height_m, .foot = foot, .up = scene.up, .turn = static_cast<float>(radians(options.turn_deg))});
+  light_scene(estimate, foot, options.main_lights, scene);
   scene.matte = matte_of(estimate, options.matte);
   return scene;
 }

@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 namespace faceprobe::pipeline {
 
 class Stopwatch {
  public:
-  explicit Stopwatch(std::vector<StageTime>& times) : times_(times), start_(Clock::now()) {}
+  explicit Stopwatch(std::vector<StageTime>& times, StageDone done = {})
+      : times_(times), done_(std::move(done)), start_(Clock::now()) {}
 
   // Books the time since the last call on a stage; several calls with one name add up.
   void lap(const std::string& stage) {
@@ -23,11 +25,13 @@ class Stopwatch {
     } else {
       times_.push_back({stage, seconds});
     }
+    if (done_) done_(stage);
   }
 
  private:
   using Clock = std::chrono::steady_clock;
   std::vector<StageTime>& times_;
+  StageDone done_;
   Clock::time_point start_;
 };
 

@@ -26,9 +26,11 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace faceprobe::pipeline {
@@ -112,12 +114,16 @@ struct FaceEvidence {
   double energy = 0;  // luminance of its own light, summed over the sphere's cells
   bool enough_shown = true;
 };
+// Of a face that has been estimated; its own light's energy goes along.
 FaceEvidence evidence_of(const FaceEstimate& face);
 
 struct StageTime {
   std::string stage;
-  double seconds = 0;
+  double seconds = 0;  // of wall time; of all faces together
 };
+
+// Told the name of each stage as it ends, on the calling thread; stages of several faces come again for each.
+using StageDone = std::function<void(std::string_view stage)>;
 
 enum class FocalSource { kGiven, kExif, kDefault };
 
@@ -143,20 +149,21 @@ class Estimator {
   Estimator(Estimator&&) noexcept;
   Estimator& operator=(Estimator&&) noexcept;
 
+  // As given, with the threads of the finder and the solver set from `threads`.
   const EstimateOptions& options() const;
-  // Throws Error(kNoFace) when no usable face is found.
-  Estimate estimate(const io::Photo& photo) const;
+  // Throws Error(kNoFace) when no usable face is found, or all show too little skin; Error(kUsage) for a photo without pixels.
+  Estimate estimate(const io::Photo& photo, const StageDone& stage_done = {}) const;
   // From what a face says to the light, by the options' prior and solver; the last step of estimate(), for observations from elsewhere.
-  // Without `ask_prior` the solver starts from the smooth fit.
+  // Throws std::invalid_argument for observations that do not validate. Without `ask_prior` the solver starts from the smooth fit.
   lighting::Light light_of(const lighting::Observations& observations, bool ask_prior = true) const;
   // One distant light for faces of one photo, or of several that the same camera took from the same place in the same light, such as a burst:
   // more patches, each with noise of its own. Every face is first scaled to the mean energy of the single estimates, because photos tell
   // neither albedos nor exposures. The prior is asked when the photos show enough of all of them. Many faces are thinned to options().max_patches in all. Throws std::invalid_argument for none.
   LightResult joint(const std::vector<FaceEvidence>& faces) const;
-  // The faces alone, left to right; empty when there are none.
+  // The faces alone, left to right; empty when there are none. Throws Error(kUsage) for a photo without pixels.
   std::vector<face::Face> find_faces(const io::Photo& photo) const;
-  // The two layers at the photo's own size: highlight is 0 outside the faces' skin, diffuse is the photo there.
-  // Throws Error(kNoFace).
+  // The two layers at the photo's own size: H x W x 3 each, linear; highlight is 0 outside the faces' skin, diffuse is the
+  // photo there. Throws Error(kNoFace); Error(kUsage) for a photo without pixels.
   highlight::Layers separate(const io::Photo& photo) const;
 
  private:

@@ -31,13 +31,25 @@ struct InsertionOptions {
   std::string validate() const;
 };
 
-// A matte from a picture of one, white where a person stands; its greys are shares, not light.
+// A matte from a picture of one, white where a person stands; its greys are shares, not light. H x W x 1, 0..1.
 Image matte_from(const io::Photo& picture);
 
 // The photo as a view for renderers.
 render::PinholeView view_of(const Estimate& estimate);
 
-// Throws Error(kUsage) for options that do not validate or a matte of another size.
+// Which way is up in the camera's frame, a unit vector: told by the horizon if there is one, else by the heads.
+Eigen::Vector3f up_in(const Estimate& estimate, const InsertionOptions& options = {});
+
+// Where a thing stands: what the options say, and for what they leave open the lower corner with more room.
+struct Spot {
+  Eigen::Vector2d at_px = Eigen::Vector2d::Zero();  // of the photo, where the foot is seen
+  float depth_m = 0;                                // of the foot along the camera's axis
+  float height_m = 0;
+};
+// `model`: at any size and place; only its shape counts.
+Spot spot_for(const Estimate& estimate, const render::Model& model, const InsertionOptions& options = {});
+
+// Throws Error(kUsage) for options that do not validate or a matte of another size, Error(kInput) for a model without height.
 insert::Scene scene_for(const io::Photo& photo, const Estimate& estimate, render::Model model,
                         const InsertionOptions& options = {});
 

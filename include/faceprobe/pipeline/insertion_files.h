@@ -21,6 +21,7 @@ std::vector<std::filesystem::path> write_insertion(const std::filesystem::path& 
                                                    const insert::Scene& scene, const std::string& photo,
                                                    const std::string& object);
 
+// What insert.json says: one object, UTF-8, indented, schema "faceprobe-insert/1"; metres and pixels as its names end.
 std::string insertion_json(const insert::Insertion& done, const insert::Scene& scene, const std::string& photo,
                            const std::string& object);
 

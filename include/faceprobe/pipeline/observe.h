@@ -1,5 +1,7 @@
 #pragma once
 // The step from pictures to rows: averages the layers and the geometry of a face over small square patches of skin.
+//
+//   const lighting::Observations rows = observe(geometry, layers.highlight, shading, flags, 1000, 0);
 
 #include "faceprobe/core/image.h"
 #include "faceprobe/face/geometry.h"
@@ -7,7 +9,8 @@
 
 namespace faceprobe::pipeline {
 
-// `highlight` and `shading`: crop x 3; `flags`: io::Photo bits in the crop. At most `max_patches` rows, horizons included.
+// `highlight` and `shading`: crop x 3; `flags`: io::Photo bits in the crop. At most about `max_patches` rows, horizons
+// included; none where no skin can be used. All pictures are of one size, which is not checked.
 lighting::Observations observe(const face::FaceGeometry& geometry, const Image& highlight, const Image& shading,
                                const ByteImage& flags, int max_patches, int threads);
 

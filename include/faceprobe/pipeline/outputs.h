@@ -35,7 +35,7 @@ std::vector<std::filesystem::path> write_outputs(const std::filesystem::path& fo
                                                  const io::Photo& photo, const EstimateOptions& options,
                                                  const std::string& source, const OutputOptions& output = {});
 
-// The maps and scenes of one light alone, such as the joint light of several photos.
+// The maps and scenes of one light alone, such as the joint light of several photos. Returns and throws as write_outputs().
 std::vector<std::filesystem::path> write_light(const std::filesystem::path& folder, const LightResult& light,
                                                const EstimateOptions& options, const OutputOptions& output = {});
 

@@ -1,6 +1,8 @@
 #pragma once
 // One picture to look at: the photo with the face's mesh, the layers, the environment map with its main lights, the confidence, and
 // a diffuse, a matte and a mirror ball under the estimated light, captioned.
+//
+//   io::write_picture("overview.png", draw_overview(estimate, photo, estimate.largest));
 
 #include "faceprobe/core/image.h"
 #include "faceprobe/pipeline/estimate.h"

@@ -11,6 +11,7 @@
 #include "faceprobe/lighting/triangulate.h"
 #include "faceprobe/pipeline/estimate.h"
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -32,11 +33,14 @@ struct Room {
 // Throws Error(kNoFace) for fewer than two faces, Error(kUsage) for options that do not validate.
 Room find_lamps(const Estimate& estimate, const RoomOptions& options = {});
 
-// One object: frame, faces and lamps with their errors.
+// One JSON object, schema "faceprobe-room/1": frame, faces and lamps with their errors. `source`: what the user called the photo.
 std::string room_json(const Room& room, const std::string& source);
 // glTF 2.0, text, without buffers: the camera, a node a face, and the lamps as KHR_lights_punctual; metres, +y up, errors as extras.
 std::string room_gltf(const Room& room, const face::Camera& camera, int photo_width, int photo_height);
-// From above and from the side, as in the paper's figure: camera, faces, rays, lamps and one standard deviation about them.
+// From above and from the side, as in the paper's figure: camera, faces, rays, lamps and one standard deviation about them. sRGB.
 ByteImage draw_room(const Room& room);
+// All three as room.json, room.gltf and room.png of the folder, which is made where it is not there; returns them in order. Throws Error(kOutput).
+std::vector<std::filesystem::path> write_room(const std::filesystem::path& folder, const Room& room,
+                                              const Estimate& estimate, const std::string& source);
 
 }  // namespace faceprobe::pipeline

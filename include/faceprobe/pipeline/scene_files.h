@@ -12,7 +12,8 @@
 
 namespace faceprobe::pipeline {
 
-// The map without the lamp that the scenes have beside it (lighting::without_main_lights of the strongest one).
+// The map without the lamp that the scenes have beside it (lighting::without_main_lights of the strongest one). `options`: those of
+// the estimate.
 EnvMap rest_of_environment(const LightResult& light, const EstimateOptions& options);
 
 // Universal Scene Description, text: a dome light, a distant light, +y up, metres. `map_file` as seen from the scene's folder.

@@ -1,0 +1,122 @@
+#include "serve/server.h"
+
+#include "faceprobe/core/error.h"
+#include "serve/api.h"
+#include "serve/guard.h"
+
+#include <sys/socket.h>
+#include <atomic>
+#include <utility>
+
+namespace faceprobe::serve {
+namespace {
+
+constexpr std::size_t kThreads = 24;  // each listener of events holds one
+constexpr const char* kHost = "127.0.0.1";
+constexpr const char* kNoPage =
+    "<!doctype html><html lang=\"en\"><title>Faceprobe</title><p>The page was not built; the API is at "
+    "<a href=\"/api/v1/info\">/api/v1</a>.</p></html>";
+
+void refuse(httplib::Response& response, FailureKind kind, std::string sentence) {
+  answer(response, Failure{kind, std::move(sentence)});
+}
+
+// What the HTTP library refuses by itself has a status and no words.
+void explain(const httplib::Request& request, httplib::Response& response, std::int64_t most_bytes) {
+  if (!response.body.empty()) return;
+  if (response.status == 413) {
+    refuse(response, FailureKind::kTooLarge,
+           "The photo is larger than the " + std::to_string(most_bytes >> 20) + " MB that this server takes.");
+  } else if (response.status == 404) {
+    refuse(response, FailureKind::kNotFound, "There is nothing at " + request.path + "; see /openapi.json.");
+  } else {
+    refuse(response, FailureKind::kUsage, "The request could not be read.");
+  }
+}
+
+}  // namespace
+
+std::string ServerOptions::validate() const {
+  if (port < 0 || port > 65535) return "The port must be from 0 to 65535, found " + std::to_string(port) + ".";
+  if (max_upload_bytes < 1) return "An upload must be allowed a byte at least.";
+  if (studio.history_limit < 1) return "The history must hold one estimate at least.";
+  return studio.estimate.validate();
+}
+
+struct Server::Impl {
+  explicit Impl(ServerOptions wanted) : options(std::move(wanted)), studio(options.studio) {
+    // Without this two servers share a port, and each gets a part of the requests.
+    http.set_socket_options([](socket_t socket) {
+      const int yes = 1;
+      ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+    });
+    http.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
+    http.set_payload_max_length(static_cast<std::size_t>(options.max_upload_bytes));
+    http.set_tcp_nodelay(true);
+    http.set_default_headers({{"Content-Security-Policy", kContentSecurityPolicy},
+                              {"Cross-Origin-Opener-Policy", "same-origin"},
+                              {"Cross-Origin-Resource-Policy", "same-origin"},
+                              {"Referrer-Policy", "no-referrer"},
+                              {"X-Content-Type-Options", "nosniff"}});
+    http.set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
+      const std::string fault =
+          fault_of_caller(request.get_header_value("Host"), request.get_header_value("Origin"), port);
+      if (fault.empty()) return httplib::Server::HandlerResponse::Unhandled;
+      refuse(response, FailureKind::kForbidden, fault);
+      return httplib::Server::HandlerResponse::Handled;
+    });
+    http.set_exception_handler([](const httplib::Request&, httplib::Response& response,
+                                  const std::exception_ptr& thrown) { answer(response, failure_from(thrown)); });
+    http.set_error_handler([this](const httplib::Request& request, httplib::Response& response) {
+      explain(request, response, options.max_upload_bytes);
+    });
+    add_routes(http, studio, options, closing);
+    add_page();
+    port =
+        options.port == 0 ? http.bind_to_any_port(kHost) : (http.bind_to_port(kHost, options.port) ? options.port : -1);
+    if (port <= 0) {
+      throw Error(ExitCode::kUsage,
+                  "Port " + std::to_string(options.port) +
+                      " is taken, perhaps by another faceprobe; name another with --port, or 0 for any.");
+    }
+  }
+
+  void add_page() {
+    if (options.page.empty()) {
+      http.Get("/", [](const httplib::Request&, httplib::Response& response) {
+        response.set_content(kNoPage, "text/html; charset=utf-8");
+      });
+      return;
+    }
+    // Names of assets have a hash of what is in them.
+    http.set_mount_point("/assets", options.page / "assets", {{"Cache-Control", "max-age=31536000, immutable"}});
+    http.set_mount_point("/", options.page, {{"Cache-Control", "no-cache"}});
+  }
+
+  ServerOptions options;
+  std::atomic<bool> closing = false;
+  int port = -1;
+  Studio studio;
+  httplib::Server http;  // last: it answers from the others
+};
+
+Server::Server(ServerOptions options) {
+  if (const std::string fault = options.validate(); !fault.empty()) throw Error(ExitCode::kUsage, fault);
+  impl_ = std::make_unique<Impl>(std::move(options));
+}
+
+Server::~Server() = default;
+
+int Server::port() const { return impl_->port; }
+
+void Server::run() {
+  if (!impl_->http.listen_after_bind()) throw Error(ExitCode::kUnexpected, "The server stopped listening by itself.");
+}
+
+void Server::stop() {
+  impl_->closing = true;
+  impl_->studio.records().stop_all();
+  impl_->http.stop();
+}
+
+}  // namespace faceprobe::serve
