@@ -69,6 +69,18 @@ TEST(Estimate, PortraitGivesOneWholeAnswer) {
   EXPECT_FALSE(estimate.timings.empty());
 }
 
+TEST(Estimate, TellsOfEachStageAsItEnds) {
+  EstimateOptions options;
+  options.solve.iterations = 5;  // of no matter here
+  std::vector<std::string> ended;
+  const Estimate estimate =
+      Estimator(options).estimate(portrait(), [&](std::string_view stage) { ended.emplace_back(stage); });
+  std::vector<std::string> booked;
+  for (const StageTime& time : estimate.timings) booked.push_back(time.stage);
+  EXPECT_EQ(ended, booked) << "of one face each stage ends once";
+  EXPECT_EQ(ended.front(), "find faces");
+}
+
 TEST(Estimate, LayersAddUpToThePicture) {
   const FaceEstimate& face = portrait_estimate().faces[0];
   ASSERT_TRUE(face.layers.highlight.same_size(face.picture));

@@ -108,6 +108,15 @@ TEST(Insertion, IsAThirdOfThePictureLargeUnlessTold) {
   }
 }
 
+TEST(Insertion, TheSpotIsWhereTheSceneHasIt) {
+  const Estimate estimate = only_face(60);
+  const Spot spot = spot_for(estimate, marker());
+  const insert::Scene scene = scene_for(photo_of(estimate), estimate, marker());
+  EXPECT_NEAR((pixel_of(scene.view, vertex(scene, 0)) - spot.at_px).norm(), 0, 0.01);  // floats
+  EXPECT_NEAR(-vertex(scene, 0).z(), spot.depth_m, 1e-5);
+  EXPECT_NEAR((vertex(scene, 1) - vertex(scene, 0)).norm(), spot.height_m, 1e-5);
+}
+
 TEST(Insertion, StandsWhereItIsTold) {
   const Estimate estimate = only_face(40);
   for (const auto& [x, y] : {std::pair(100.0, 400.0), std::pair(600.5, 20.25), std::pair(320.0, 240.0)}) {
