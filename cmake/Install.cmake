@@ -70,7 +70,7 @@ configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/faceprobeConfig.cmake.
   INSTALL_DESTINATION ${FACEPROBE_PACKAGE_DIR}
   PATH_VARS FACEPROBE_PRIVATE_LIBDIR CMAKE_INSTALL_DATADIR)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/cmake/faceprobeConfigVersion.cmake
-  COMPATIBILITY SameMajorVersion)
+  COMPATIBILITY SameMinorVersion)
 install(FILES
   ${PROJECT_BINARY_DIR}/cmake/faceprobeConfig.cmake
   ${PROJECT_BINARY_DIR}/cmake/faceprobeConfigVersion.cmake

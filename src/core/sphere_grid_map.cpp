@@ -30,6 +30,8 @@ Eigen::MatrixX3f grid_from_env_map(const EnvMap& map, const SphereGrid& grid) {
 }
 
 EnvMap env_map_from_grid(const Eigen::MatrixX3f& cells, const SphereGrid& grid, int width, int height) {
+  if (cells.rows() != grid.cell_count() || width < 1 || height < 1)
+    throw std::invalid_argument("A map is made of a row for every cell, and has a size.");
   // Texels wider than half a cell would miss cells between them: such maps are drawn finer and averaged.
   if (width < 8 * grid.nside()) {
     const int finer = (8 * grid.nside() + width - 1) / width;

@@ -148,13 +148,15 @@ class Finetuning {
     report.before = score();
     FinetuneRow sum;
     std::int64_t counted = 0;
+    std::int64_t told = 0;  // steps that rows tell of
     std::int64_t step = 0;
     for (; step < run_.config.steps; ++step) {
       if (hooks_.stop && hooks_.stop()) break;
       counted += one_step(step, sum) ? 1 : 0;
       if ((step + 1) % kRowEvery != 0 && step + 1 != run_.config.steps) continue;
       const double n = static_cast<double>(std::max<std::int64_t>(1, counted));
-      const double steps = static_cast<double>(kRowEvery);
+      const double steps = static_cast<double>(step + 1 - told);
+      told = step + 1;
       report.rows.push_back({step + 1, sum.residual / n, sum.energy / n, sum.guards / n, sum.synthetic_loss / steps});
       if (hooks_.progress) hooks_.progress(report.rows.back(), run_.config.steps);
       sum = {};

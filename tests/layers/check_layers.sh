@@ -21,7 +21,7 @@ awk '
   function storey(room) { return (room in floor) ? floor[room] : -1 }
 
   BEGIN {
-    split("core:0 io:1 net:2 render:2 face:3 highlight:3 lighting:3 insert:3 synth:3 assets:4 pipeline:4 eval:4 train:4 batch:5 apps:6 bindings:6",
+    split("core:0 io:1 net:2 render:2 face:3 highlight:3 lighting:3 insert:3 synth:3 assets:4 pipeline:4 eval:4 train:4 batch:5 faceprobe.h:5 apps:6 bindings:6",
           plan, " ")
     for (i in plan) { split(plan[i], pair, ":"); floor[pair[1]] = pair[2] + 0 }
   }

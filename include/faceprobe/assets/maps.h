@@ -1,5 +1,7 @@
 #pragma once
 // All environment maps of a folder.
+//
+//   for (const auto& [name, map] : assets::load_maps("maps/")) ...
 
 #include "faceprobe/core/env_map.h"
 

@@ -16,11 +16,11 @@ namespace faceprobe::assets {
 
 // Of the samples of one region. Values are the file's own: nothing is added to them.
 struct RegionReflectance {
-  int count = 0;              // of samples; the rest is 0 without any, deviations with one
-  double mean_roughness = 0;  // m, rms slope of the Beckmann distribution
-  double roughness_deviation = 0;
-  double mean_specular_albedo = 0;  // rho_s
-  double specular_albedo_deviation = 0;
+  int count = 0;                         // of samples; the rest is 0 without any, deviations with one
+  double mean_roughness = 0;             // m, rms slope of the Beckmann distribution
+  double roughness_deviation = 0;        // standard deviation
+  double mean_specular_albedo = 0;       // rho_s
+  double specular_albedo_deviation = 0;  // standard deviation
 };
 // By the file's region number, 1 .. 10, less 1.
 using RegionTable = std::array<RegionReflectance, 10>;

@@ -1,5 +1,7 @@
 #pragma once
 // All skin textures of a folder.
+//
+//   for (const auto& [name, texture] : assets::load_skins("skins/")) ...
 
 #include "faceprobe/core/image.h"
 

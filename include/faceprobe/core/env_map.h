@@ -34,6 +34,7 @@ enum class Orientation {
 
 class EnvMap {
  public:
+  // No map yet: 0 x 0 texels.
   EnvMap() = default;
   // Black map. Throws std::invalid_argument unless width = 2 * height > 0.
   EnvMap(int width, int height);
@@ -42,12 +43,13 @@ class EnvMap {
 
   int width() const { return radiance_.width(); }
   int height() const { return radiance_.height(); }
+  // Height x width x 3, linear Rec.709, row 0 up. Its size stays as it is.
   Image& radiance() { return radiance_; }
   const Image& radiance() const { return radiance_; }
 
   // Unit vector through the centre of a texel.
   Eigen::Vector3f direction(int x, int y) const;
-  // Bilinear look-up; wraps in u, continues over the poles in v.
+  // Bilinear look-up in a direction of any length; wraps in u, continues over the poles in v. Not for a map of no texels.
   Eigen::Vector3f sample(const Eigen::Vector3f& direction) const;
   // Radiance integrated over the sphere, per channel (radiance x steradian).
   Eigen::Vector3d integral() const;
@@ -57,10 +59,12 @@ class EnvMap {
 };
 
 // The map as seen from a frame turned by `target_from_source`: a light at d in `map` is at R d in the result. Same size.
+// R is a rotation.
 EnvMap rotate(const EnvMap& map, const Eigen::Matrix3f& target_from_source);
 // Another size, area-averaged by solid angle when smaller, bilinear when larger. Keeps the integral to the filter's accuracy.
+// Throws std::invalid_argument unless width = 2 * height > 0.
 EnvMap resize(const EnvMap& map, int width, int height);
-// Columns rolled from the native frame into another tool's, and back.
+// Columns rolled from the native frame into another tool's, and back. For kThree the width is a multiple of 4: rolls are of whole columns.
 EnvMap to_orientation(const EnvMap& map, Orientation orientation);
 EnvMap from_orientation(const EnvMap& map, Orientation orientation);
 

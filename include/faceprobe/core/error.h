@@ -32,6 +32,7 @@ enum class ExitCode : int {
 
 class Error : public std::runtime_error {
  public:
+  // `sentence`: what was found, what is allowed, what to do.
   Error(ExitCode code, const std::string& sentence) : std::runtime_error(sentence), code_(code) {}
   ExitCode code() const noexcept { return code_; }
 

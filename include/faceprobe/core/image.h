@@ -35,11 +35,13 @@ class BasicImage {
   int channels() const { return channels_; }
   bool empty() const { return values_.empty(); }
   std::size_t pixel_count() const { return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_); }
+  // Whether width and height are the same; channels may differ.
   template <class U>
   bool same_size(const BasicImage<U>& other) const {
     return width_ == other.width() && height_ == other.height();
   }
 
+  // Column x, row y, from the top left; outside the picture is an assertion.
   T& operator()(int x, int y, int channel = 0) { return values_[offset(x, y) + static_cast<std::size_t>(channel)]; }
   const T& operator()(int x, int y, int channel = 0) const {
     return values_[offset(x, y) + static_cast<std::size_t>(channel)];
@@ -71,6 +73,7 @@ class BasicImage {
   std::vector<T> values_;
 };
 
+// Linear light or plain numbers; encoded colour, labels or flags.
 using Image = BasicImage<float>;
 using ByteImage = BasicImage<std::uint8_t>;
 

@@ -10,6 +10,7 @@
 
 namespace faceprobe {
 
+// In place, any size and number of channels.
 template <class T>
 void mirror(BasicImage<T>& picture) {
   const int width = picture.width();
@@ -19,6 +20,7 @@ void mirror(BasicImage<T>& picture) {
   }
 }
 
+// The mirror image, as large.
 template <class T>
 BasicImage<T> mirrored(BasicImage<T> picture) {
   mirror(picture);

@@ -11,6 +11,7 @@
 
 namespace faceprobe {
 
+// `random` is a copy: the caller's generator stays where it is.
 inline std::vector<int> permutation(int count, Random random) {
   std::vector<int> order(static_cast<std::size_t>(count));
   std::iota(order.begin(), order.end(), 0);

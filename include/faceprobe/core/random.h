@@ -19,17 +19,18 @@ namespace faceprobe {
 
 class Random {
  public:
+  // A seed and the path under it.
   Random(std::initializer_list<std::uint64_t> key);
 
-  std::uint32_t bits();                         // 32 of them
-  double uniform();                             // [0, 1)
-  double between(double low, double high);      // [low, high)
-  double log_between(double low, double high);  // uniform in the logarithm; 0 < low <= high
-  double normal();                              // mean 0, variance 1 (Box-Muller)
-  double normal(double mean, double deviation);
-  int below(int count);  // 0 .. count - 1; count >= 1
-  bool chance(double probability);
-  Eigen::Vector3f direction();  // uniform on the sphere
+  std::uint32_t bits();                          // 32 of them
+  double uniform();                              // [0, 1)
+  double between(double low, double high);       // [low, high)
+  double log_between(double low, double high);   // uniform in the logarithm; 0 < low <= high
+  double normal();                               // mean 0, variance 1 (Box-Muller)
+  double normal(double mean, double deviation);  // of that mean and standard deviation
+  int below(int count);                          // 0 .. count - 1; count >= 1
+  bool chance(double probability);               // true with that probability, 0..1
+  Eigen::Vector3f direction();                   // uniform on the sphere
 
   // A generator of its own for a part of the work; drawing from it leaves this one as it is.
   Random split(std::uint64_t purpose) const;

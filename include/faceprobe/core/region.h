@@ -1,6 +1,8 @@
 #pragma once
 // What a pixel of a picture of a person is. The first ten are the skin regions that reflectance statistics are given for (Weyrich
 // et al. 2006, "Analysis of human faces using a measurement-based skin reflectance model"); the rest is not skin.
+//
+//   if (is_probe_skin(static_cast<Region>(regions(x, y)))) ...        // `regions`: H x W x 1
 
 #include <array>
 #include <cstdint>
@@ -8,6 +10,7 @@
 
 namespace faceprobe {
 
+// The values of region pictures; files keep the numbers.
 enum class Region : std::uint8_t {
   kNone = 0,  // neither face nor person: background
   kForehead,

@@ -14,18 +14,19 @@
 
 namespace faceprobe::sh {
 
-inline constexpr int coefficient_count(int order) { return (order + 1) * (order + 1); }
+inline constexpr int coefficient_count(int order) { return (order + 1) * (order + 1); }  // rows of a set of that order
 
 // (order + 1)^2 values of the basis at a unit direction. order >= 0.
 Eigen::VectorXd basis(int order, const Eigen::Vector3d& direction);
 
-// (order + 1)^2 x 3 radiance coefficients of a map.
+// (order + 1)^2 x 3 radiance coefficients of a map, order >= 0; red, green, blue.
 Eigen::MatrixX3d project(const EnvMap& map, int order);
 
 // Factor that turns radiance of band l into irradiance: pi, 2 pi / 3, pi / 4, 0, -pi / 24, ... (Eq. 8 of the source).
 double cosine_lobe(int band);
 
-// Irradiance (not divided by pi) at a unit normal from radiance coefficients of any order.
+// Irradiance (not divided by pi) at a unit normal from radiance coefficients of any order: (order + 1)^2 x 3.
+// Red, green, blue; may be below 0 where the harmonics ring.
 Eigen::Vector3d irradiance(const Eigen::MatrixX3d& radiance, const Eigen::Vector3d& normal);
 
 }  // namespace faceprobe::sh

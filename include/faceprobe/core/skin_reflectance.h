@@ -5,6 +5,8 @@
 // ESTIMATE, not measurement: the values below keep the order that the paper's plots and later renderers agree on (nose and
 // forehead smoother and shinier, beard area rougher) around the common default m = .30, rho_s = .18. Only the ratios between
 // regions matter to a light estimate, because one gain for all highlights is fitted.
+//
+//   const auto [roughness, specular_albedo] = skin_reflectance(Region::kNose);
 
 #include "faceprobe/core/region.h"
 

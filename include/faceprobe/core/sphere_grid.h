@@ -37,8 +37,9 @@ class SphereGrid {
   // Four cells around a direction and their weights (sum 1): linear along the rings above and below, then between them.
   struct Interpolation {
     std::array<int, 4> cell;
-    std::array<float, 4> weight;
+    std::array<float, 4> weight;  // 0..1
   };
+  // `direction` need not be of unit length.
   Interpolation interpolate(const Eigen::Vector3f& direction) const;
 
  private:
@@ -58,8 +59,10 @@ class SphereGrid {
 // #cells x 3 mean radiance of the map over each cell. Keeps the integral of every channel exactly.
 Eigen::MatrixX3f grid_from_env_map(const EnvMap& map, const SphereGrid& grid);
 // The same light on another grid, smooth: each cell the mean of the cells around it, by a Gaussian of half the coarser grid's spacing.
+// `cells`: #cells of `from` x 3. Throws std::invalid_argument for another number of rows.
 Eigen::MatrixX3f grid_from_grid(const Eigen::MatrixX3f& cells, const SphereGrid& from, const SphereGrid& to);
-// Smooth lat-long picture of cell values (#cells x 3), interpolated, scaled per channel so that the integral is kept.
+// Smooth lat-long picture of cell values (#cells of `grid` x 3), interpolated, scaled per channel so that the integral is kept.
+// width = 2 * height > 0.
 EnvMap env_map_from_grid(const Eigen::MatrixX3f& cells, const SphereGrid& grid, int width, int height);
 
 }  // namespace faceprobe

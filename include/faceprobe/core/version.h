@@ -1,5 +1,7 @@
 #pragma once
-// The version of this library; CMake reads it from here.
+// The version of this library; CMake reads it from here. Major, minor, patch; CHANGELOG.md says what they promise.
+//
+//   std::cout << "faceprobe " << kVersion << '\n';
 
 #include <string_view>
 

@@ -16,9 +16,10 @@ namespace faceprobe::eval {
 // Paper Sec. 5.3: the object under both lights, each pair of pictures divided by the maximum of its own diffuse one, clipped at 1; root mean
 // square over the object's pixels and channels, times 255. NaN when one of the lights is black.
 struct RelightError {
-  double diffuse = 0;
-  double glossy = 0;
+  double diffuse = 0;  // 0..255, both
+  double glossy = 0;   // under the coat of eval/lit_object.h
 };
+// `truth`, `estimate`: cells of the object's grid x 3. Throws std::invalid_argument for another number.
 RelightError relight_error(const LitObject& object, const Eigen::MatrixX3f& truth, const Eigen::MatrixX3f& estimate);
 
 // The three-sphere protocol of StyleLight and DiffusionLight, one sphere at a time, on our own spheres (render/sphere.h) and linear light
@@ -28,15 +29,17 @@ struct SphereError {
   double angular_deg = 0;  // between colours, mean over pixels
   double nrmse = 0;        // both pictures brought to [0, 1] between their percentiles .1 and 99.9
 };
+// `truth`, `estimate`: #cells of `grid` x 3. Throws std::invalid_argument for another number.
 SphereError sphere_error(const Eigen::MatrixX3f& truth, const Eigen::MatrixX3f& estimate, const SphereGrid& grid,
                          render::SphereMaterial material);
 
 // The supplement's error of maps: root mean square over cells of luminance once both have the same mean, over the range of the estimate
 // (as the paper has it; one bright cell lowers it) or of the truth. NaN over the range of a light that is even.
 struct MapError {
-  double over_estimate_range = 0;
-  double over_truth_range = 0;
+  double over_estimate_range = 0;  // shares of the range, 0 or more
+  double over_truth_range = 0;     // the same
 };
+// Of #cells x 3 each, of one grid.
 MapError map_error(const Eigen::MatrixX3f& truth, const Eigen::MatrixX3f& estimate);
 
 // A light that one lamp dominates: the strongest of its main lights has a quarter of the energy and twice the next one's irradiance.

@@ -1,5 +1,7 @@
 #pragma once
 // What the benchmarks on synthetic photos give a method to see.
+//
+//   const eval::HighlightMethod mine{"mine", [](const eval::PhotoInput& input) { return highlight_of(input.linear); }};
 
 #include "faceprobe/core/image.h"
 #include "faceprobe/face/face.h"

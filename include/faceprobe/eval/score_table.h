@@ -47,7 +47,7 @@ class ScoreTable {
   std::vector<std::string> methods() const;  // in the order they came
   const std::set<std::string>& groups() const { return groups_; }
   const std::set<std::string>& metrics() const { return metrics_; }
-  std::vector<std::string> labels(const std::string& group) const;
+  std::vector<std::string> labels(const std::string& group) const;  // those that occur, in the order of the tables
 
   // One value for each selected row, in order; NaN where the row has none of this metric.
   std::vector<double> values(const std::string& metric, const Selection& selection = {}) const;

@@ -16,9 +16,10 @@
 
 namespace faceprobe::eval {
 
-struct ShadingEstimate {  // H x W x 3 each; what matters is the skin
-  Image albedo;
-  Image shading;
+// What matters is the skin.
+struct ShadingEstimate {
+  Image albedo;   // H x W x 3, linear, at any scale
+  Image shading;  // H x W x 3, the same
 };
 
 struct ShadingMethod {

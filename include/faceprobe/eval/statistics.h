@@ -24,11 +24,11 @@ struct Bootstrap {
 struct Summary {
   std::size_t count = 0;    // finite values
   std::size_t missing = 0;  // the others
-  double mean = 0;
-  double median = 0;
-  double p90 = 0;       // nine of ten values are below it: the bad end of an error, the good end of a similarity
-  double mean_low = 0;  // 95 % interval of the mean: percentile bootstrap (Efron & Tibshirani 1993, chapter 13)
-  double mean_high = 0;
+  double mean = 0;          // of the finite values, as all that follow
+  double median = 0;        // between the two middle ones where there are two
+  double p90 = 0;           // nine of ten values are below it: the bad end of an error, the good end of a similarity
+  double mean_low = 0;      // 95 % interval of the mean: percentile bootstrap (Efron & Tibshirani 1993, chapter 13)
+  double mean_high = 0;     // the interval's upper end
 };
 
 // The order of the values does not matter. Throws std::invalid_argument when bootstrap.resamples < 1.
@@ -39,11 +39,11 @@ double quantile_of_sorted(std::span<const double> sorted, double p);
 
 // Bins of one width over [low, high]; a value on a border belongs to the bin above it, `high` itself to the last.
 struct Histogram {
-  double low = 0;
-  double high = 0;
-  std::vector<std::size_t> counts;
-  std::size_t below = 0;  // values under `low`
-  std::size_t above = 0;  // values over `high`
+  double low = 0;                   // in the unit of the values
+  double high = 0;                  // the same
+  std::vector<std::size_t> counts;  // from low to high
+  std::size_t below = 0;            // values under `low`
+  std::size_t above = 0;            // values over `high`
 };
 // NaN is left out. Throws std::invalid_argument unless low < high, both finite, and bins >= 1.
 Histogram histogram(std::span<const double> values, double low, double high, int bins);

@@ -2,6 +2,8 @@
 // The mean face that all landmarks refer to: MediaPipe's canonical mesh, 468 vertices and 898 triangles, eyes and mouth
 // closed over, in metres (the file is in centimetres). Axes: +x the subject's left (right in a frontal photo), +y up,
 // +z out of the face.
+//
+//   const CanonicalMesh mesh = load_canonical_mesh(io::data_file("canonical-face-model.obj"));
 
 #include <Eigen/Core>
 #include <filesystem>

@@ -17,8 +17,9 @@
 
 namespace faceprobe::face {
 
-struct Box {  // pixels of the photo; x, y is the top left corner
-  float x = 0, y = 0, width = 0, height = 0;
+// An upright rectangle; x, y is its top left corner.
+struct Box {
+  float x = 0, y = 0, width = 0, height = 0;  // pixels of the photo
 };
 
 inline constexpr int kMeshVertices = 468;  // MediaPipe's canonical face mesh
@@ -31,7 +32,7 @@ struct Camera {
   // Unit vector from the scene point seen at (x, y) towards the camera, camera frame (+x right, +y up, +z to the
   // viewer).
   Eigen::Vector3d view_direction(double x_px, double y_px) const;
-  // Pixel of a point in the camera frame, metres (z < 0 in front of the camera).
+  // Pixel of a point in the camera frame, metres; z < 0, in front of the camera.
   Eigen::Vector2d project(const Eigen::Vector3d& point_cam_m) const;
 };
 
@@ -66,6 +67,7 @@ struct FinderOptions {
 // One finder, one thread at a time.
 class FaceFinder {
  public:
+  // Throws Error(kUsage) for options that do not validate too.
   explicit FaceFinder(const FinderOptions& options = {});
   ~FaceFinder();
   FaceFinder(FaceFinder&&) noexcept;
@@ -73,12 +75,13 @@ class FaceFinder {
   FaceFinder(const FaceFinder&) = delete;
   FaceFinder& operator=(const FaceFinder&) = delete;
 
-  // Faces of a linear photo, left to right by box centre; empty when there is none.
+  // Faces of a linear photo of 1 or 3 channels, left to right by box centre; empty when there is none. Throws Error(kUsage) for an empty
+  // picture, another number of channels, and a focal length that is not above 0.
   std::vector<Face> find(const Image& linear, const Camera& camera) const;
   // The mesh of a face whose five or 68 landmarks (#points x 2, px; 5: eyes left to right in the image, nose tip, mouth
   // corners left to right; 68: the iBUG/Multi-PIE order) the caller knows. Tries the mesh network on the crop they
-  // imply, and falls back to a rigid fit of the canonical mesh (`rough_landmarks`). Throws Error(kUsage) for another
-  // number of points.
+  // imply, and falls back to a rigid fit of the canonical mesh (`rough_landmarks`). Throws Error(kUsage) as
+  // find() does, and for another number of points or points that are not finite; Error(kNoFace) for points that no head fits.
   Face from_landmarks(const Image& linear, const Camera& camera, const Eigen::MatrixX2f& landmarks_px) const;
 
  private:

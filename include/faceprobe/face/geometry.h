@@ -26,6 +26,7 @@ struct Crop {
   double scale = 1;           // crop pixels per photo pixel
   int width = 0, height = 0;  // of the crop
 
+  // Points, not indices: the centre of pixel (x, y) is (x + .5, y + .5), in the crop as in the photo.
   Eigen::Vector2d photo_from_crop(double x, double y) const { return {x_px + x / scale, y_px + y / scale}; }
   Eigen::Vector2d crop_from_photo(double x, double y) const { return {(x - x_px) * scale, (y - y_px) * scale}; }
 };
@@ -48,15 +49,16 @@ struct FaceGeometry {
   Image normal_error_rad = {};
 };
 
-// The crop that a face gets.
+// The crop that a face gets: its box and the margin, cut off half a photo outside. Throws Error(kUsage) for options that do not validate.
 Crop face_crop(const Face& face, int photo_width, int photo_height, const GeometryOptions& options);
 
 // Normals are averaged at the vertices (weighted by angle) and interpolated perspective-correctly.
 FaceGeometry rasterize(const Face& face, const Camera& camera, const CanonicalMesh& mesh, const Crop& crop);
-// Its region alone, for large crops.
+// Its region alone (crop x 1, Region), for large crops.
 ByteImage rasterize_regions(const Face& face, const Camera& camera, const CanonicalMesh& mesh, const Crop& crop);
 
-// The photo resampled into the crop: area average when smaller, bilinear when larger; black outside the photo.
+// The photo resampled into the crop: area average when smaller, bilinear when larger; black outside the photo. As many channels as it has.
+// Here and below: throws Error(kUsage) unless the crop's scale is above 0 and its size not negative.
 Image crop_picture(const Image& linear, const Crop& crop);
 // Bit flags resampled into the crop: a bit is set where any covered pixel has it; 0xFF outside the photo.
 ByteImage crop_flags(const ByteImage& flags, const Crop& crop);

@@ -1,5 +1,7 @@
 #pragma once
 // The regions of core/region.h on the canonical face mesh, which has those up to kMouth.
+//
+//   const std::vector<Region> regions = triangle_regions(mesh);        // regions[t]: of mesh.triangles.row(t)
 
 #include "faceprobe/core/region.h"
 #include "faceprobe/face/canonical_mesh.h"

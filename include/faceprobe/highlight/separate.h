@@ -43,7 +43,8 @@ struct Layers {
 };
 
 // `linear`: H x W x 3. `mask`: H x W x 1, non-zero where to separate; empty = everywhere. Statistics are taken inside
-// the mask only. Throws std::invalid_argument when the sizes differ.
+// the mask only. Throws std::invalid_argument when sizes or channels differ, Error(kUsage) for options that do not
+// validate.
 Layers separate(const Image& linear, const ByteImage& mask, const SeparateOptions& options);
 
 }  // namespace faceprobe::highlight

@@ -13,11 +13,11 @@ namespace faceprobe::insert {
 struct Hidden {
   Image model, ground;  // 0..1
 };
-// `part`: the view that the layers were drawn with; `box`: where that lies in the photo.
+// `part`: the view that the layers were drawn with; `box`: where that lies in the photo, of the layers' size. `matte`: the photo's size.
 Hidden hidden_by(const Matte& matte, const render::Layers& layers, const render::PinholeView& part,
                  const std::optional<render::Ground>& ground, const PixelBox& box);
 
-// Writes into the box of `picture`, which holds the photo. `hidden` may be empty pictures.
+// Writes into the box of `picture`, which holds the photo, linear, 3 channels. `hidden` may be empty pictures.
 void composite(Image& picture, const PixelBox& box, const render::Layers& layers, const Hidden& hidden);
 
 }  // namespace faceprobe::insert

@@ -31,11 +31,11 @@ struct Matte {
 
 struct Scene {
   render::PinholeView view;  // of the whole photo
-  EnvMap environment;
+  EnvMap environment;        // camera frame, in the photo's unit
   std::vector<render::BallLamp> lamps{};
   render::Model model;                             // placed, camera frame, metres
   bool ground = true;                              // whether it stands on something that takes its shadow
-  Eigen::Vector3f up = Eigen::Vector3f::UnitY();   // of the ground, which touches the model's lowest point
+  Eigen::Vector3f up = Eigen::Vector3f::UnitY();   // unit, of the ground, which touches the model's lowest point
   std::optional<Eigen::Vector3f> ground_albedo{};  // else from the photo's colour where the model stands
   std::optional<Matte> matte{};
 };
@@ -49,20 +49,22 @@ struct Options {
 };
 
 struct Insertion {
-  Image picture;          // the photo with the thing in it, linear
-  PixelBox box;           // of the photo, what was drawn
-  render::Layers layers;  // in the box
-  Eigen::Vector3f ground_albedo = Eigen::Vector3f::Zero();
-  float blur_px = 0;     // what the layers were softened by
-  Grain grain;           // what was added
-  bool stopped = false;  // options.render.progress said so
+  Image picture;                                            // the photo with the thing in it, linear
+  PixelBox box;                                             // of the photo, what was drawn
+  render::Layers layers;                                    // in the box
+  Eigen::Vector3f ground_albedo = Eigen::Vector3f::Zero();  // linear; what was taken, 0 without a ground
+  float blur_px = 0;                                        // what the layers were softened by
+  Grain grain;                                              // what was added
+  bool stopped = false;                                     // options.render.progress said so
 };
 
-// Throws std::invalid_argument for a photo that is not view.width_px x height_px x 3 and for options or a scene that do not validate;
+// Throws std::invalid_argument for a photo that is not view.width_px x height_px x 3, for options or a model that do not validate, and for a
+// matte of another size;
 // Error(kUsage) when no part of the thing is in the picture.
 Insertion insert_model(const Image& photo, const Scene& scene, const Options& options = {});
 
-// The same at a smaller size, for a quick look: the photo's longer side becomes `long_side_px`. Nothing happens to a photo that is no larger.
+// The same at a smaller size, for a quick look: the photo's longer side becomes `long_side_px`. Nothing happens to a photo that is no larger,
+// and for a side that is not above 0.
 void shrink(Image& photo, Scene& scene, int long_side_px);
 
 }  // namespace faceprobe::insert

@@ -24,7 +24,7 @@ namespace faceprobe::insert {
 // Noise of a photo in sRGB-encoded units: 1 = from black to white. A part that all channels share, and a part of colour that
 // leaves the mean of the channels alone. Each is white noise that went through a Gaussian.
 struct Grain {
-  static constexpr float kMostColour = 100;
+  static constexpr float kMostColour = 100;  // largest value of `colour`
 
   // Standard deviation of the mean of the channels, at an encoded brightness of .1, .3, .5, .7, .9.
   std::array<float, 5> sigma{};
@@ -32,9 +32,9 @@ struct Grain {
   float colour = 0;                 // deviation of a channel from the mean (rms of the three), as a multiple of sigma
   float colour_correlation_px = 0;  // mostly larger: chroma is kept at half size
 
-  // Straight between the five levels, constant beyond them.
+  // At an encoded brightness; straight between the five levels, constant beyond them.
   float sigma_at(float brightness) const;
-  std::string validate() const;
+  std::string validate() const;  // empty when usable
 };
 
 // `linear`: one or three channels. All 0 when no patch of 16 x 16 pixels is free of clipped values.

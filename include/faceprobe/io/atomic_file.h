@@ -12,7 +12,7 @@
 
 namespace faceprobe::io {
 
-// Throws Error(kOutput) naming the target and the system's reason; the old target is untouched then.
+// Here and below: throws Error(kOutput) naming the target and the system's reason; the old target is untouched then.
 void write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
 void write_file_atomically(const std::filesystem::path& path, std::string_view text);
 // For libraries that write by name: `write` is handed the temporary path (same extension as the target) and fills it.

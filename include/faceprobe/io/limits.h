@@ -1,6 +1,8 @@
 #pragma once
 // What a file may ask of us before we refuse it. Every limit is checked from the file's own header, by our parser, before a
 // decoder allocates anything; the error names the limit and the value found.
+//
+//   const io::Photo photo = io::load_photo("upload.jpg", {.max_pixels = 20'000'000});
 
 #include <cstdint>
 #include <string>
@@ -8,9 +10,9 @@
 namespace faceprobe::io {
 
 struct Limits {
-  std::int64_t max_file_bytes = 256LL << 20;
-  std::int64_t max_pixels = 100'000'000;
-  int max_side_px = 32768;
+  std::int64_t max_file_bytes = 256LL << 20;  // 256 MiB
+  std::int64_t max_pixels = 100'000'000;      // width x height
+  int max_side_px = 32768;                    // width or height; at most 1048576
   int max_channels = 64;
   int max_jpeg_scans = 100;                        // each scan of a progressive JPEG costs a pass over the picture
   std::int64_t max_icc_bytes = 4LL << 20;          // larger profiles are ignored with a warning

@@ -13,6 +13,7 @@
 #include "faceprobe/core/image.h"
 #include "faceprobe/io/limits.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -39,7 +40,8 @@ struct Photo {
   std::string sha256;                 // of the file's bytes, hex
 };
 
-// Throws Error(kInput) with the reason when the file is not readable, not a picture, of an unsupported kind, or over a limit.
+// Throws Error(kInput) with the reason when the file is not readable, not a picture, of an unsupported kind, or over a limit;
+// Error(kUsage) for limits that do not validate.
 Photo load_photo(const std::filesystem::path& path, const Limits& limits = {});
 
 // A picture that is decoded already: sRGB, H x W x 3, upright. Throws std::invalid_argument for another number of channels.

@@ -1,7 +1,11 @@
 #pragma once
 // Pictures and environment maps on disk. The extension picks the format: .exr (half float, ZIP), .hdr (Radiance RGBE), .png
 // (8-bit sRGB). Writing is atomic: the target is either the old file or the complete new one, also after a kill or a full
-// disk; every failure is Error(kOutput) that names the file and the system's reason.
+// disk; failure is Error(kOutput) that names the file and the system's reason. Another extension, or channels that
+// the format has not, are Error(kUsage).
+//
+//   io::write_picture("highlight.exr", layers.highlight);
+//   const EnvMap studio = io::read_env_map("studio.hdr");
 
 #include "faceprobe/core/env_map.h"
 #include "faceprobe/core/image.h"
@@ -25,14 +29,14 @@ void write_picture(const std::filesystem::path& path, const ByteImage& image, co
 
 // Lat-long map to .exr (Rec.709 chromaticities; `envmap = latlong` when the columns
 // are OpenEXR's) or .hdr, columns rolled to `orientation`;
-// .png writes a tone-mapped preview whose exposure puts the 90 % quantile at 0.6. Other extensions: Error(kUsage).
+// .png writes a preview, clipped at 1, whose exposure puts the 90 % quantile at 0.6.
 void write_env_map(const std::filesystem::path& path, const EnvMap& map,
                    Orientation orientation = Orientation::kOpenExr, const Attributes& attributes = {});
 
 // Linear picture of an .exr or .hdr: 1 or 3 channels as in the file (alpha dropped); non-finite and negative values become 0.
-// Throws Error(kInput) when unreadable or over a limit.
+// Throws Error(kInput) when unreadable, of another kind or over a limit; Error(kUsage) for limits that do not validate.
 Image read_linear_picture(const std::filesystem::path& path, const Limits& limits = {});
-// As above, and 2N x N.
+// As above, and Error(kInput) unless it is 2N x N; one channel becomes three. `orientation`: whose columns the file has.
 EnvMap read_env_map(const std::filesystem::path& path, Orientation orientation = Orientation::kOpenExr,
                     const Limits& limits = {});
 

@@ -15,8 +15,8 @@
 namespace faceprobe::io {
 
 struct Tensor {
-  std::vector<std::int64_t> shape;
-  std::vector<float> values;  // row-major; F16, BF16 and F32 in the file all become float
+  std::vector<std::int64_t> shape;  // as the file has it; empty for one number
+  std::vector<float> values;        // row-major; F16, BF16 and F32 in the file all become float
 };
 
 struct TensorFile {
@@ -29,7 +29,7 @@ struct TensorFile {
 };
 
 struct TensorFileLimits {
-  std::int64_t max_file_bytes = 1LL << 30;
+  std::int64_t max_file_bytes = 1LL << 30;  // 1 GiB
   std::int64_t max_header_bytes = 1LL << 20;
   std::int64_t max_tensors = 4096;
 };

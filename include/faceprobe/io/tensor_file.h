@@ -22,9 +22,9 @@
 
 namespace faceprobe::io {
 
-using Half = Eigen::half;
+using Half = Eigen::half;  // IEEE 754 binary16
 
-// "U8", "I32", "I64", "F16" or "F32".
+// The format's name of a C++ type: "U8", "I32", "I64", "F16" or "F32".
 template <class T>
 constexpr const char* tensor_type() {
   if constexpr (std::is_same_v<T, std::uint8_t>) return "U8";
@@ -69,7 +69,7 @@ class MappedTensors {
   // Throws Error(kInput): not there, damaged, cut short.
   explicit MappedTensors(const std::filesystem::path& path);
 
-  bool has(const std::string& name) const;
+  bool has(const std::string& name) const;  // whether there is an array of that name
   // Throws Error(kInput) when the array is not there.
   const std::vector<std::int64_t>& shape(const std::string& name) const;
   const std::map<std::string, std::string>& metadata() const { return metadata_; }
@@ -97,7 +97,7 @@ class MappedTensors {
   std::map<std::string, std::string> metadata_;
 };
 
-// Rounded to the nearest half, ties to even; beyond its range the largest finite one.
+// Rounded to the nearest half, ties to even; beyond its range the largest finite one. `to` is as long as `from`, here and below.
 void to_half(std::span<const float> from, std::span<Half> to);
 void to_float(std::span<const Half> from, std::span<float> to);
 

@@ -4,6 +4,9 @@
 //
 // The product light colour x skin colour is all a photo shows. In log chromaticity both factors get a normal prior - photos are
 // roughly white-balanced, skins lie on a short locus - and the posterior mean splits the product (ESTIMATES: see albedo.cpp).
+//
+//   const AlbedoModel model = fit_albedo(layers.diffuse, skin_region, clipped);
+//   const Image albedo = albedo_picture(model, skin_region);           // shading = diffuse / albedo
 
 #include "faceprobe/core/image.h"
 #include "faceprobe/core/region.h"
@@ -22,9 +25,9 @@ inline constexpr float kSkinLuminance = 0.35F;  // assumed mean diffuse albedo; 
 
 // `diffuse`: H x W x 3 linear. `skin_region`: H x W x 1, Region where skin, 0 elsewhere. `clipped`: H x W x 1, non-zero
 // pixels are left out. A face without any usable skin pixel gets the prior's mean. `grey`: the photo has no colour, so skin and light
-// are taken as grey.
+// are taken as grey. Throws std::invalid_argument when sizes or channels differ.
 AlbedoModel fit_albedo(const Image& diffuse, const ByteImage& skin_region, const ByteImage& clipped, bool grey = false);
-// H x W x 3: the region's albedo at each skin pixel, blurred across borders; the overall skin mean elsewhere.
+// H x W x 3: the region's albedo at each skin pixel, blurred across borders; the cheeks' elsewhere.
 Image albedo_picture(const AlbedoModel& model, const ByteImage& skin_region);
 
 }  // namespace faceprobe::lighting

@@ -35,7 +35,7 @@ struct SolveOptions {
   // defaults suit layers from the classical separators, whose highlights are rough (bench_direction); with exact layers the
   // highlights deserve more than the shading (bench_best_case).
   float highlight_weight = 0.3F;
-  float shading_weight = 1.0F;
+  float shading_weight = 1.0F;  // 0 or more
   // Fit one gain between highlights and shading (specular albedo and skin albedo are known only up to a factor each).
   bool fit_highlight_gain = true;
   // Diffuse light that a separator left in the highlights, per unit of shading; fitted, never more than this. 0 = none.

@@ -23,9 +23,9 @@ float shading_level(const Observations& observations);
 // 0 to 1; then the same of the highlights. All zero where the level is 0. Throws std::invalid_argument for observations that do not validate.
 Eigen::VectorXf face_features(const Observations& observations);
 
-// The features of the mirror image, left and right changed places.
+// The features of the mirror image, left and right changed places. Throws std::invalid_argument for another length.
 Eigen::VectorXf mirrored_features(const Eigen::VectorXf& features);
-// kFeatureCells x anything: the rows of the mirror image.
+// kFeatureCells x anything: the rows of the mirror image. Throws std::invalid_argument for another number of rows.
 Eigen::MatrixXf mirrored_cells(const Eigen::MatrixXf& cells);
 
 }  // namespace faceprobe::lighting

@@ -15,10 +15,10 @@ namespace faceprobe::lighting {
 
 // (order + 1)^2 x 3 radiance coefficients (core/sh.h) from the shading of patches that are not clipped, order 0 to 4. `ridge`: weight of the
 // coefficients' energy against the rows', which keeps what a face hardly shows near 0. Zero without usable patches. Throws
-// std::invalid_argument.
+// std::invalid_argument for another order, a ridge that is not above 0, and observations that do not validate.
 Eigen::MatrixX3d fit_harmonics(const Observations& observations, int order, double ridge = 1e-3);
 
-// #cells x 3; below 0 it is cut off.
+// Radiance of the grid's cells, #cells x 3; below 0 it is cut off. Throws std::invalid_argument unless the rows are (order + 1)^2.
 Eigen::MatrixX3f radiance_of_harmonics(const Eigen::MatrixX3d& coefficients, const SphereGrid& grid);
 
 }  // namespace faceprobe::lighting

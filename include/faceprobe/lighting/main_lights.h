@@ -1,6 +1,8 @@
 #pragma once
 // The few lights that a person would name: local maxima of the estimated map by non-maximum suppression, each with its direction,
 // colour, size and share of the energy.
+//
+//   for (const MainLight& lamp : main_lights(light.radiance, SphereGrid(16))) use(lamp.direction, lamp.colour);
 
 #include "faceprobe/core/sphere_grid.h"
 
@@ -31,11 +33,13 @@ struct MainLightOptions {
 };
 
 // Lights by falling irradiance; empty for an even sky. `radiance`: #cells x 3. `confidence`: #cells, or empty for all certain.
+// Throws std::invalid_argument for other sizes and options that do not validate.
 std::vector<MainLight> main_lights(const Eigen::MatrixX3f& radiance, const SphereGrid& grid,
                                    const MainLightOptions& options = {}, const Eigen::VectorXf& confidence = {});
 
 // The same light without its first `count` main lights (fewer if there are fewer): what is above the surroundings is taken off their cells, which
 // keep their colours. A lamp of a light's irradiance and this map together give the whole light, so that a renderer can have the lamp sharp.
+// Throws as main_lights().
 Eigen::MatrixX3f without_main_lights(const Eigen::MatrixX3f& radiance, const SphereGrid& grid, int count,
                                      const MainLightOptions& options = {}, const Eigen::VectorXf& confidence = {});
 

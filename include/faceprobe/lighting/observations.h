@@ -3,6 +3,10 @@
 // light it mirrored and scattered. All vectors are in the camera frame, all colours linear Rec.709 with 1 = the photo's white.
 //
 // Plain data; fill it from any source of normals and layers. A sphere, a scan or a rendering do as well as a photo.
+//
+//   Observations ball;
+//   ball.resize(patches);                                   // then fill normal, view, highlight, shading row by row
+//   const Light light = solve(ball, {});                    // lighting/estimate.h
 
 #include <Eigen/Core>
 #include <array>
@@ -30,6 +34,7 @@ struct Observations {
   Eigen::MatrixXf horizon;
 
   Eigen::Index count() const { return normal.rows(); }
+  // All rows 0, unclipped, of weight 1, with the roughness and specular albedo of average skin; no horizon.
   void resize(Eigen::Index patches);
   // Empty when usable, else a sentence that says what is missing.
   std::string validate() const;

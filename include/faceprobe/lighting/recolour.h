@@ -1,6 +1,8 @@
 #pragma once
 // Eq. 6 of Yi et al. 2018: a clipped channel holds less highlight than there was. Where some channel is not clipped, the others
 // follow from it and the chromaticity of the diffuse shading, which rarely clips and is lit by the same light.
+//
+//   const Eigen::MatrixX3f highlight = recolour_highlights(observations);
 
 #include "faceprobe/lighting/observations.h"
 

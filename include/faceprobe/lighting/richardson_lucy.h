@@ -4,8 +4,9 @@
 //
 //   e_j <- e_j  [ sum_i a_i T_ij h_i / p_i ] / [ sum_i a_i T_ij ]
 //
-// Estimates stay non-negative, the weighted sum of the predictions equals that of the data after every step, and the likelihood
-// never falls (with plain data: no bounds, no prior, no column held). Observations that are only lower bounds (clipped pixels) pull upwards while p_i < h_i and are silent after.
+// Estimates stay non-negative, the weighted sum of the predictions equals that of the data after every step, and the likelihood never falls (with
+// plain data: no bounds, no prior, no column held). Observations that are only lower bounds (clipped pixels) pull upwards while p_i < h_i and are
+// silent after.
 //
 // With prior_weight > 0 a column that is observed less than the median one also has a gamma prior whose mode is its start value (the
 // posterior's EM step),
@@ -45,7 +46,7 @@ struct RichardsonLucyResult {
 
 // `transport`: #rows x #columns, >= 0. `weight`: #rows. `observed`: #rows x #channels, >= 0. `lower_bound`: the same shape, or
 // empty. `start`: #columns x #channels, > 0. Bitwise the same for any number of threads.
-// Throws std::invalid_argument when the shapes disagree.
+// Throws std::invalid_argument when the shapes disagree or the options do not validate.
 RichardsonLucyResult richardson_lucy(const RowMatrix& transport, const Eigen::VectorXf& weight,
                                      const Eigen::MatrixXf& observed,
                                      const Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>& lower_bound,

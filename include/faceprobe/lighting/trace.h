@@ -2,6 +2,8 @@
 // The paper's environment map initialisation (section 4.1): each direction of the sphere looks up the face normal that mirrors it
 // into the camera, N = (L + V) / |L + V|, and takes a highlight value interpolated from the nearest observed normals. Values are
 // carried over as they are: a highlight is a function of the mirror direction, no Jacobian belongs to it.
+//
+//   const TracedMap traced = trace_highlights(observations, recolour_highlights(observations), SphereGrid(16));
 
 #include "faceprobe/core/sphere_grid.h"
 #include "faceprobe/lighting/observations.h"
@@ -21,6 +23,7 @@ struct TracedMap {
 };
 
 // `highlight`: #patches x 3, usually recoloured. The view direction is the mean one (the paper's orthographic camera).
+// Throws std::invalid_argument for another number of rows.
 TracedMap trace_highlights(const Observations& observations, const Eigen::MatrixX3f& highlight, const SphereGrid& grid,
                            const TraceOptions& options = {});
 

@@ -43,10 +43,10 @@ struct Sighting {
 
 struct Lamp {
   bool near = false;
-  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  // camera frame; of near ones
-  Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  // from the faces' middle to the lamp, unit; of all
-  Eigen::Vector3d colour = Eigen::Vector3d::Ones();      // linear Rec.709, luminance 1
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();     // camera frame; of near ones
+  Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();  // of the position, camera frame; of near ones
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();     // from the faces' middle to the lamp, unit; of all
+  Eigen::Vector3d colour = Eigen::Vector3d::Ones();         // linear Rec.709, luminance 1
   double intensity = 0;        // near: irradiance times squared distance; distant: irradiance. In the faces' unit
   double miss_deg = 0;         // root mean square of the sightings' angles from where the lamp should be seen
   std::vector<Sighting> seen;  // at least two of different faces

@@ -57,7 +57,7 @@ class FaceNet {
   FaceLayers layers_both_ways(const Image& linear, const ByteImage& clip, const ByteImage& mask,
                               const Image& mesh_normal_cam) const;
 
-  const ModelInfo& info() const;
+  const ModelInfo& info() const;  // what the weights file says of itself
 
  private:
   struct Impl;

@@ -38,7 +38,7 @@ class HighlightNet {
   // threads. Throws std::invalid_argument when sizes or channels differ.
   Image highlight(const Image& linear, const ByteImage& clip, const ByteImage& mask) const;
 
-  const ModelInfo& info() const;
+  const ModelInfo& info() const;  // what the weights file says of itself
 
  private:
   struct Impl;

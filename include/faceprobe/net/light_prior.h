@@ -27,12 +27,12 @@ class LightPrior {
   LightPrior& operator=(LightPrior&&) noexcept;
   ~LightPrior();
 
-  int inputs() const;
+  int inputs() const;  // length of the features that it takes
   // #cells x 3 of a coarse sphere grid, > 0: radiance in units of the face's mean shading. Throws std::invalid_argument for another number
   // of features.
   Eigen::MatrixX3f radiance(const Eigen::VectorXf& features) const;
 
-  const ModelInfo& info() const;
+  const ModelInfo& info() const;  // what the weights file says of itself
 
  private:
   struct Impl;

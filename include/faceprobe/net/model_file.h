@@ -20,7 +20,7 @@ inline constexpr const char* kFaceArchitecture = "face";
 inline constexpr const char* kMscrArchitecture = "mscr";
 
 struct ModelInfo {
-  std::string architecture;                     // "unet", "face" or "mscr"
+  std::string architecture;                     // "unet", "face", "mscr" or "light"
   std::string options_json;                     // of that network
   std::string sha256;                           // of the file, hex
   std::int64_t parameter_count = 0;             // numbers in all tensors

@@ -38,8 +38,8 @@ class TorchHighlightNet {
   // As HighlightNet::highlight.
   Image highlight(const Image& linear, const ByteImage& clip, const ByteImage& mask) const;
 
-  const ModelInfo& info() const;
-  const Device& device() const;
+  const ModelInfo& info() const;  // what the weights file says of itself
+  const Device& device() const;   // where it runs
 
  private:
   struct Impl;

@@ -158,7 +158,8 @@ class Estimator {
   lighting::Light light_of(const lighting::Observations& observations, bool ask_prior = true) const;
   // One distant light for faces of one photo, or of several that the same camera took from the same place in the same light, such as a burst:
   // more patches, each with noise of its own. Every face is first scaled to the mean energy of the single estimates, because photos tell
-  // neither albedos nor exposures. The prior is asked when the photos show enough of all of them. Many faces are thinned to options().max_patches in all. Throws std::invalid_argument for none.
+  // neither albedos nor exposures. The prior is asked when the photos show enough of all of them. Many faces are thinned to options().max_patches
+  // in all. Throws std::invalid_argument for none.
   LightResult joint(const std::vector<FaceEvidence>& faces) const;
   // The faces alone, left to right; empty when there are none. Throws Error(kUsage) for a photo without pixels.
   std::vector<face::Face> find_faces(const io::Photo& photo) const;

@@ -5,9 +5,10 @@
 //   const Eigen::MatrixX3f dimmed = lighting::without_main_lights(face.light.radiance, SphereGrid(16), 1);
 //   pipeline::relight(photo.linear, face, dimmed);                    // the photo, its strongest light put out
 //
-// The diffuse layer is multiplied by what the new light gives each spot over what the old one gave, the highlight layer gets the difference of
-// the two lights' lobes; shadows are those of the face on itself, by its horizons. Only the face changes: hair, neck, clothes and room stay as they
-// are, so it is for small changes and small looks. Of light that the photo does not tell of, such as the far side of a face in the dark, nothing comes.
+// The diffuse layer is multiplied by what the new light gives each spot over what the old one gave, the highlight layer gets the difference of the
+// two lights' lobes; shadows are those of the face on itself, by its horizons. Only the face changes: hair, neck, clothes and room stay as they
+// are, so it is for small changes and small looks. Of light that the photo does not tell of, such as the far side of a face in the dark, nothing
+// comes.
 
 #include "faceprobe/pipeline/estimate.h"
 

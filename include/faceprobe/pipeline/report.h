@@ -7,6 +7,7 @@
 #include "faceprobe/pipeline/estimate.h"
 
 #include <string>
+#include <string_view>
 
 namespace faceprobe::pipeline {
 

@@ -33,7 +33,7 @@ struct Material {
   std::string validate() const;
 };
 
-inline constexpr float kSmooth = 0.03F;
+inline constexpr float kSmooth = 0.03F;  // roughness
 
 // "diffuse", "plastic" (the paper's hard shiny white plastic: index 1.362, smooth), "silver" (matte), "gold", "mirror", "glass", "clay",
 // "red". Throws std::invalid_argument for other names.

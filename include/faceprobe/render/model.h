@@ -1,7 +1,7 @@
 #pragma once
 // A thing to be drawn: triangle meshes and their materials, +y up, front towards +z.
 //
-//   Model model = pot();                                        // render/shapes.h; or assets::load_model("thing.glb")
+//   Model model = pot();                                        // render/shapes.h; or assets::load_model("thing.glb").model
 //   place(model, {.height_m = 0.2F, .foot = {0.1F, -0.15F, -0.6F}});
 
 #include "faceprobe/render/material.h"
@@ -26,7 +26,8 @@ struct Model {
   std::vector<TriangleMesh> meshes;
   std::vector<Material> materials;
 
-  int triangle_count() const;
+  int triangle_count() const;  // of all meshes
+  // Of all vertices; empty when there are none.
   Eigen::AlignedBox3f box() const;
   // Empty when it can be drawn: indices in range, finite numbers, at least one triangle, materials that validate.
   std::string validate() const;
@@ -35,7 +36,7 @@ struct Model {
 // Area-weighted vertex normals (#V x 3, unit length; vertices of no triangle get +y).
 Eigen::MatrixX3f smooth_normals(const Eigen::MatrixX3f& vertices, const Eigen::MatrixX3i& triangles);
 
-// Every vertex and normal by a rotation, a uniform scale and a shift.
+// Every vertex and normal by an affine map without a flat side; a mirroring one turns the triangles round.
 void transform(Model& model, const Eigen::Transform<float, 3, Eigen::Affine>& world_from_model);
 
 // Scales the model to a size and stands it somewhere.
@@ -45,7 +46,7 @@ struct Placement {
   Eigen::Vector3f up = Eigen::Vector3f::UnitY();   // where its +y goes
   float turn = 0;  // radians about up, positive to the viewer's right seen from the front
 };
-// Throws std::invalid_argument for a model without extent.
+// Throws std::invalid_argument for a model without height, a height that is not above 0, and an `up` without length.
 void place(Model& model, const Placement& placement);
 
 }  // namespace faceprobe::render

@@ -15,6 +15,7 @@
 #include "faceprobe/render/model.h"
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -26,21 +27,21 @@ namespace faceprobe::render {
 // Pinhole with square pixels; rays of pixel (x, y) go through the points (x + [0,1), y + [0,1)).
 struct PinholeView {
   double focal_px = 0;
-  double centre_x_px = 0, centre_y_px = 0;
+  double centre_x_px = 0, centre_y_px = 0;  // the principal point, from the top left corner
   int width_px = 0, height_px = 0;
 };
 
 // A diffuse disc that the thing stands on.
 struct Ground {
-  Eigen::Vector3f point = Eigen::Vector3f::Zero();  // its centre
-  Eigen::Vector3f up = Eigen::Vector3f::UnitY();
+  Eigen::Vector3f point = Eigen::Vector3f::Zero();  // its centre, metres
+  Eigen::Vector3f up = Eigen::Vector3f::UnitY();    // its normal, unit
   float radius_m = 1;
-  Eigen::Vector3f albedo = Eigen::Vector3f::Constant(0.3F);
+  Eigen::Vector3f albedo = Eigen::Vector3f::Constant(0.3F);  // linear, 0..1
 };
 
 // A small near light: a ball that shines evenly and lets all other light through. Not seen itself by the camera.
 struct BallLamp {
-  Eigen::Vector3f position = Eigen::Vector3f::Zero();
+  Eigen::Vector3f position = Eigen::Vector3f::Zero();  // metres
   float radius_m = 0.05F;
   Eigen::Vector3f intensity =
       Eigen::Vector3f::Ones();  // radiance x projected area: irradiance at distance r is intensity / r^2
@@ -70,7 +71,7 @@ struct RenderOptions {
   float noise = 0;
   int max_bounces = 12;
   float clamp_indirect = 0;  // largest value that a path beyond its first bounce may add; 0 = no limit, and no bias
-  std::uint64_t seed = 1;
+  std::uint64_t seed = 1;    // of the noise
   int threads = 0;
   // Called now and then by one thread at a time, with the share done, 0..1, which grows; returning false stops, and what there is comes back.
   std::function<bool(float)> progress{};
@@ -90,7 +91,7 @@ struct Layers {
 
 class PathTracer {
  public:
-  // Throws std::invalid_argument when model, map or options do not validate.
+  // Throws std::invalid_argument when model or options do not validate, or the map is empty or holds what is negative or not finite.
   PathTracer(Model model, EnvMap environment, SceneOptions options);
   ~PathTracer();
   PathTracer(PathTracer&&) noexcept;
@@ -106,7 +107,8 @@ class PathTracer {
   std::unique_ptr<State> state_;
 };
 
-// What a white diffuse surface sends out with nothing around it: irradiance / pi from the map and the lamps, without noise. `normal`: unit.
+// What a white diffuse surface sends out with nothing around it: irradiance / pi from the map and the lamps, without noise. `point`: metres;
+// `normal`: unit. Red, green, blue, in the unit of the map.
 Eigen::Vector3f open_light(const EnvMap& environment, const std::vector<BallLamp>& lamps, const Eigen::Vector3f& point,
                            const Eigen::Vector3f& normal);
 

@@ -28,7 +28,7 @@ struct SphereOptions {
 };
 
 // size x size x 4: linear colour and coverage (1 inside the ball, fractions on its rim). `radiance`: #cells x 3.
-// Throws std::invalid_argument.
+// Throws std::invalid_argument for options that do not validate and another number of cells.
 Image render_sphere(const Eigen::MatrixX3f& radiance, const SphereGrid& grid, const SphereOptions& options = {});
 
 }  // namespace faceprobe::render

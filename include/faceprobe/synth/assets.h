@@ -1,5 +1,7 @@
 #pragma once
 // What faces are made from: head models, skin textures, environment maps. Plain data; assets/ loads it from files.
+//
+//   const Assets own{.heads = {procedural_head()}, .maps = {prepare_map("studio", map, {})}};
 
 #include "faceprobe/synth/head_model.h"
 #include "faceprobe/synth/map_light.h"

@@ -19,6 +19,7 @@ struct ViewSurface {
   Eigen::VectorXf specular_albedo;  // #F, rho_s
   Eigen::MatrixX3f row_albedo;      // #rows of the scene transport x 3, for the bounce
 };
+// Black fragments of no lobe, and vertices of albedo .3 for whatever no person owns.
 ViewSurface empty_surface(const SceneTransport& transport, const Fragments& fragments);
 // Fills in what is the person's; several people share one surface.
 void add_person_surface(const Assets& assets, const Person& person, const SkinSettings& skin, const Scene& scene,
@@ -38,8 +39,9 @@ void scatter_below_surface(const Fragments& fragments, const PinholeCamera& came
 
 // Linear layers of one sample, exposed by `gain`; `background`, already exposed, is seen where fragments leave room.
 struct LinearLayers {
-  Image highlight, diffuse, albedo, shading;
+  Image highlight, diffuse, albedo, shading;  // the view's size, 3 channels, as Sample's
 };
+// `shading`: #F x 3, with what bounces; `specular`: #F x 3, of rho_s = 1. `background`: the view's size, 3 channels.
 LinearLayers gather_layers(const Fragments& fragments, const ViewSurface& surface, const Eigen::MatrixX3f& shading,
                            const Eigen::MatrixX3f& specular, const Image& background, const Eigen::Vector3f& gain);
 

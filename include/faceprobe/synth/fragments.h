@@ -19,8 +19,8 @@ struct PinholeCamera {
   int width_px = 128;
   int height_px = 128;
   float focal_px = 200.0F;
-  Eigen::Vector2f centre_px{64.0F, 64.0F};  // principal point, from the top left corner
-  Eigen::Isometry3f camera_from_scene = Eigen::Isometry3f::Identity();
+  Eigen::Vector2f centre_px{64.0F, 64.0F};                              // principal point, from the top left corner
+  Eigen::Isometry3f camera_from_scene = Eigen::Isometry3f::Identity();  // metres
 
   // Pixel coordinates of a point of the camera's frame with z < 0.
   Eigen::Vector2f project(const Eigen::Vector3f& point_cam) const;
@@ -34,6 +34,8 @@ struct FragmentOptions {
 };
 
 // #F fragments, ordered by pixel. Positions, normals and tangents are in the scene's frame.
+// Lenses do not hide what is behind them: share of the pixel under a lens and its normal, in lens fragments of their own with
+// material kLens, whose coverage is NOT part of the sum with the others.
 struct Fragments {
   int width_px = 0;
   int height_px = 0;
@@ -45,21 +47,19 @@ struct Fragments {
   std::vector<std::uint16_t> figure;  // which person
   std::vector<std::uint16_t> part;    // index in the figure's meshes, or, for hair, in its strands
   std::vector<float> tone;            // strand's tone; 1 elsewhere
-  Eigen::MatrixX3f position;
-  Eigen::MatrixX3f normal;         // smooth, unit length; for hair, towards the camera and across the strand
-  Eigen::MatrixX3f tangent;        // along the strand, unit length; zero elsewhere
-  Eigen::MatrixX2f uv;             // zero where the mesh has none
-  Eigen::MatrixX3i vertex;         // the scene's vertex numbers (Scene::vertex_offset + mesh vertex); -1 for hair
-  Eigen::MatrixX3f weights;        // barycentric
-  Eigen::VectorXf depth_m;         // along the camera's -z
-  Eigen::VectorXf slope_variance;  // of the normals within the pixel, per axis; empty = none
+  Eigen::MatrixX3f position;          // #F x 3, metres; the arrays below have #F rows too
+  Eigen::MatrixX3f normal;            // smooth, unit length; for hair, towards the camera and across the strand
+  Eigen::MatrixX3f tangent;           // along the strand, unit length; zero elsewhere
+  Eigen::MatrixX2f uv;                // zero where the mesh has none
+  Eigen::MatrixX3i vertex;            // the scene's vertex numbers (Scene::vertex_offset + mesh vertex); -1 for hair
+  Eigen::MatrixX3f weights;           // barycentric
+  Eigen::VectorXf depth_m;            // along the camera's -z
+  Eigen::VectorXf slope_variance;     // of the normals within the pixel, per axis; empty = none
   // The vertices around all primary rays of a fragment, with the mean of their weights: those of fragment i are
   // mix_vertex[mix_first[i]] .. [mix_first[i + 1] - 1]. Light that is known at vertices is averaged over the pixel by them.
   std::vector<int> mix_first{0};
   std::vector<int> mix_vertex;
   std::vector<float> mix_weight;
-  // Lenses do not hide what is behind them: share of the pixel under a lens and its normal, in lens fragments of their own with
-  // material kLens, whose coverage is NOT part of the sum with the others.
 
   int count() const { return static_cast<int>(pixel.size()); }
 };

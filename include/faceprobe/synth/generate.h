@@ -3,8 +3,8 @@
 // pictures, writes shards. The same recipe and assets give the same bytes for any number of threads, and a run that was cut off goes on
 // where it stopped.
 //
-//   const Assets assets = ...;                       // assets/load.h, or read_kit()
-//   const Progress progress = [](const State& s) { ... };
+//   const Assets assets = ...;                       // of assets/heads.h, assets/skins.h, assets/maps.h
+//   const auto progress = [](const RunState& s) { ... };
 //   const DatasetReport report = generate_dataset(assets, recipe, "faces", {.threads = 0}, progress);
 //
 // For training without a disk in between: generate_person() gives the samples themselves.
@@ -25,7 +25,7 @@ struct GenerateTimes {
   double transport = 0;  // matrices
   double shade = 0;      // matrix products and shadow rays
   double compose = 0;    // layers, camera
-  double write = 0;
+  double write = 0;      // shards
 
   GenerateTimes& operator+=(const GenerateTimes& other);
 };
@@ -42,7 +42,7 @@ struct RunState {
   int samples_done = 0;   // those found on disk included
   int samples_found = 0;  // on disk at the start
   int samples_total = 0;
-  double seconds = 0;
+  double seconds = 0;  // since the start
 };
 
 struct DatasetReport {
@@ -50,7 +50,8 @@ struct DatasetReport {
   GenerateTimes times;
 };
 
-// Throws Error: recipe not usable (kUsage), folder not writable, full, or of another recipe (kOutput).
+// Throws Error: recipe not usable, no head or no map (kUsage), a head model that does not validate (kInput), folder not writable, full, or of
+// another recipe (kOutput). `progress` is called by one thread at a time.
 DatasetReport generate_dataset(const Assets& assets, const Recipe& recipe, const std::filesystem::path& folder,
                                const RunOptions& options = {},
                                const std::function<void(const RunState&)>& progress = {});

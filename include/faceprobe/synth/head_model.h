@@ -73,6 +73,7 @@ struct Head {
   Eigen::MatrixX3f landmarks;        // 68 x 3 or empty
   Eigen::MatrixX3f dense_landmarks;  // 468 x 3 or empty
 };
+// Head frame, metres.
 Head make_head(const HeadModel& model, const HeadParameters& parameters);
 
 }  // namespace faceprobe::synth

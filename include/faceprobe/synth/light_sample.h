@@ -1,6 +1,9 @@
 #pragma once
 // Light in a scene's frame as the transport takes it: a smooth part on equal-area cells and a few small bright lights apart, whose
 // direction and energy are kept exactly. Together they are the map's whole energy.
+//
+//   LightSample sky{.cells = grid_from_env_map(map, SphereGrid(16))};
+//   sky.near.push_back({.position = {0.5F, 0.2F, 0.8F}, .radiance = {40, 36, 30}});
 
 #include <Eigen/Core>
 #include <vector>

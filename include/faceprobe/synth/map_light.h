@@ -35,7 +35,7 @@ struct MapLight {
   // Texels under the distant lights, and what is there without them.
   struct Covered {
     int x, y;
-    Eigen::Vector3f rest;
+    Eigen::Vector3f rest;  // radiance, linear
   };
   std::vector<Covered> covered;
 };

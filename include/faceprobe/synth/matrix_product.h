@@ -4,6 +4,8 @@
 //
 // Which code does it is found out when it runs: an own kernel on processors with AVX-512 (Debian's OpenBLAS knows only those older than
 // itself, and is half as fast on the others), else OpenBLAS, or Eigen in a build without it.
+//
+//   for (const PackedRows::Block& block : rows.blocks()) multiply_block(block, light, out, scratch);
 
 #include "faceprobe/synth/packed_rows.h"
 
@@ -18,8 +20,9 @@ struct ProductScratch {
   std::vector<float> gathered;
 };
 
+// Which code multiplies.
 enum class ProductKernel {
-  kBest,
+  kBest,     // what this processor is fastest with
   kLibrary,  // OpenBLAS or Eigen, on any processor; to compare with
 };
 

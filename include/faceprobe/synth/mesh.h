@@ -1,6 +1,9 @@
 #pragma once
 // What a scene is made of: triangle meshes and strands of hair, each with a plain material. Lengths in metres, in one frame per scene
 // (the head's frame when there is one person: +x the subject's left, +y up, +z out of the face, origin midway between the eyes).
+//
+//   Figure thing;
+//   thing.meshes.push_back({.material = Material::kObject, .vertices = vertices, .normals = normals, .triangles = triangles});
 
 #include "faceprobe/core/region.h"
 
@@ -27,7 +30,7 @@ struct Reflectance {
   Eigen::Vector3f albedo = Eigen::Vector3f::Constant(0.5F);  // linear
   float roughness = 0.3F;                                    // m
   float specular_albedo = 0.18F;                             // rho_s
-  float f0 = 0.04F;
+  float f0 = 0.04F;                                          // reflectance at normal incidence
 };
 
 struct SurfaceMesh {

@@ -23,6 +23,7 @@ class PackedRows {
   };
 
   PackedRows() = default;
+  // What no block holds is 0.
   PackedRows(int rows, int columns, std::vector<Block> blocks);
 
   Eigen::Index rows() const { return rows_; }

@@ -20,10 +20,10 @@ namespace faceprobe::synth {
 
 // An eyeball's middle and where it looks, head frame; for iris and pupil.
 struct Eyeball {
-  Eigen::Vector3f centre{0, 0, 0};
-  Eigen::Vector3f gaze{0, 0, 1};
+  Eigen::Vector3f centre{0, 0, 0};  // metres
+  Eigen::Vector3f gaze{0, 0, 1};    // unit, out of the eye
   float radius_m = 0.012F;
-  Eigen::Vector3f iris_colour{0.1F, 0.06F, 0.04F};
+  Eigen::Vector3f iris_colour{0.1F, 0.06F, 0.04F};  // albedo, linear
 };
 
 struct Person {
@@ -41,16 +41,19 @@ struct Person {
   Eigen::Isometry3f scene_from_head = Eigen::Isometry3f::Identity();
   int first_figure = 0;
 
+  // Whether the scene's figure of that number is one of this person's.
   bool owns_figure(int figure) const {
     return figure >= first_figure && figure < first_figure + static_cast<int>(figures.size());
   }
 };
+// `number`: from 0.
 Person draw_person(const Assets& assets, const Recipe& recipe, int number);
 
 struct View {
   PinholeCamera camera;               // its scene is the head frame
   Eigen::Matrix3f camera_from_level;  // the camera's tilt: level has +y up
 };
+// `view`: from 0.
 View draw_view(const Person& person, const Recipe& recipe, int view);
 
 // Centre, radius and axis of each eyeball of a head: the cornea, its farthest bulge, says where it looks.

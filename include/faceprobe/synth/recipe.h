@@ -3,6 +3,8 @@
 //
 // Work is split by person, or by group: one head, expression and set of clothes, seen in a few views (pose and camera), each view lit by many maps,
 // in a few skins. One shard of the data set is one person, so that shards depend on nothing but the seed and their number.
+//
+//   const Recipe recipe{.count = 20000, .size_px = 128, .seed = 7, .split = Split::kTrain};
 
 #include <cstdint>
 #include <string>

@@ -1,6 +1,9 @@
 #pragma once
 // One training example: a photo as a camera would write it, and every layer it was made of. All pictures have the photo's size; the
 // linear ones share the scale 1 = the photo's white.
+//
+//   const Sample sample = reader.copy_sample(7);                      // synth/shard.h
+//   const float mirrored = sample.highlight(x, y, 0);                 // red, linear
 
 #include "faceprobe/core/env_map.h"
 #include "faceprobe/core/image.h"
@@ -16,12 +19,12 @@ namespace faceprobe::synth {
 
 // One person in a picture.
 struct FaceMarks {
-  Eigen::MatrixX2f landmarks_px;        // 68 x 2 or empty
-  Eigen::MatrixX2f dense_landmarks_px;  // 468 x 2 or empty
-  Eigen::Isometry3f camera_from_head = Eigen::Isometry3f::Identity();
-  Eigen::VectorXf identity;  // head parameters
-  Eigen::VectorXf expression;
-  int person = 0;  // samples of one person share it
+  Eigen::MatrixX2f landmarks_px;                                       // 68 x 2 or empty
+  Eigen::MatrixX2f dense_landmarks_px;                                 // 468 x 2 or empty
+  Eigen::Isometry3f camera_from_head = Eigen::Isometry3f::Identity();  // metres
+  Eigen::VectorXf identity;                                            // head parameters
+  Eigen::VectorXf expression;                                          // the same, see HeadParameters
+  int person = 0;                                                      // samples of one person share it
 };
 
 // What does not change from one light to the next.
@@ -31,8 +34,8 @@ struct ViewLayers {
   ByteImage region;  // 1 channel, Region
   ByteImage owner;   // 1 channel: number in `faces` of the person seen there, plus 1; zero on the background
   float focal_px = 0;
-  Eigen::Vector2f centre_px{0, 0};
-  std::vector<FaceMarks> faces;  // one, or those of a group from left to right
+  Eigen::Vector2f centre_px{0, 0};  // principal point, from the top left corner
+  std::vector<FaceMarks> faces;     // one, or those of a group from left to right
 };
 
 struct Sample {
@@ -44,9 +47,9 @@ struct Sample {
   Image shading;       // diffuse = albedo * shading on the person; zero on the background
   EnvMap environment;  // distant light, camera frame, same scale
   std::vector<NearLight> lamps;  // of a group's room: camera frame, radiance on the same scale
-  int map = 0;                   // number of the map, and its turn about +y, radians
-  float map_yaw = 0;
-  std::string settings_json;  // skin, camera and wardrobe as drawn, one JSON object
+  int map = 0;                   // number of the map ...
+  float map_yaw = 0;             // ... and its turn about +y, radians
+  std::string settings_json;     // skin, camera and wardrobe as drawn, one JSON object
 };
 
 }  // namespace faceprobe::synth

@@ -21,20 +21,21 @@ struct Hit {
   bool strand = false;
   int primitive = -1;  // triangle, or first point of the piece of strand
   float u = 0;         // barycentric: point = (1 - u - v) a + u b + v c; along the piece for strands
-  float v = 0;
-  float distance = std::numeric_limits<float>::infinity();
+  float v = 0;         // the same
+  float distance = std::numeric_limits<float>::infinity();  // along the ray, in its direction's length
 };
 
 struct ShadowRay {
-  Eigen::Vector3f origin;
-  Eigen::Vector3f direction;  // unit length
-  float near = 0;
-  float far = std::numeric_limits<float>::infinity();
+  Eigen::Vector3f origin;                              // metres, the scene's frame
+  Eigen::Vector3f direction;                           // unit length
+  float near = 0;                                      // metres: hits nearer than this do not count
+  float far = std::numeric_limits<float>::infinity();  // metres: nor do those beyond this
 };
 
 class Scene {
  public:
-  // Throws std::invalid_argument when a mesh or strand names a vertex that is not there, or lacks normals.
+  // Throws std::invalid_argument when a mesh or strand names a vertex that is not there, or lacks normals; Error(kUnexpected) when Embree
+  // cannot take it.
   explicit Scene(std::vector<Figure> figures);
   ~Scene();
   Scene(Scene&&) noexcept;
@@ -42,6 +43,7 @@ class Scene {
   Scene(const Scene&) = delete;
   Scene& operator=(const Scene&) = delete;
 
+  // As given.
   const std::vector<Figure>& figures() const;
   int vertex_count() const;                       // of all meshes together
   int vertex_offset(int figure, int mesh) const;  // scene's number of the mesh's vertex 0

@@ -31,11 +31,12 @@ struct SensorSettings {
 // How a range of cameras differs; every figure a typical extreme.
 struct SensorRange {
   float max_blur_px = 1.0F;
-  float max_noise = 0.02F;
+  float max_noise = 0.02F;  // of SensorSettings::shot_noise
   int min_jpeg_quality = 55;
   float grey_share = 0.02F;
   float plain_share = 0.2F;  // sRGB curve, no noise, quality 95: what a good camera's small picture looks like
 };
+// A camera out of that range; small blur and little noise are the most common.
 SensorSettings draw_sensor(const SensorRange& range, Random& random);
 
 struct SensorPicture {
@@ -43,11 +44,12 @@ struct SensorPicture {
   ByteImage clip;   // one channel: bit c set where channel c of the exposed picture was at or over white
 };
 // `radiance`: three channels, linear, 1 = white; negative values and NaN are black. Throws std::invalid_argument for settings that
-// do not validate.
+// do not validate and another number of channels.
 SensorPicture take_picture(const Image& radiance, const SensorSettings& settings, Random& random);
 
 // What JPEG's quantisation does to a picture, without writing one: 8x8 DCT (ITU-T T.81), the tables of its Annex K scaled the way
-// libjpeg does, chroma at half size when asked. One or three channels; quality 1 .. 100.
+// libjpeg does, chroma at half size when asked. One or three channels; quality 1 .. 100; else
+// std::invalid_argument.
 ByteImage jpeg_round_trip(const ByteImage& picture, int quality, bool chroma_half);
 
 }  // namespace faceprobe::synth

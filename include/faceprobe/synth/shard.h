@@ -65,6 +65,7 @@ class ShardReader {
   const std::string& recipe() const { return recipe_; }
   // The mapped file that holds a sample, and the sample's number in it; for readers that want spans instead of copies.
   std::pair<const io::MappedTensors*, int> place(int sample) const;
+  // Copies of sample `number`, 0 .. sample_count() - 1. Throws Error(kInput) for a damaged shard, std::out_of_range for another number.
   Sample copy_sample(int number) const;
   ViewLayers copy_view(int number) const;  // of the view that the sample shows
   // The same with the photo, its clipped pixels and its two layers of light alone, or with regions and faces alone: a third of the bytes.
@@ -77,6 +78,7 @@ class ShardReader {
 
   // Whether `faceprobe mesh` has been here.
   bool has_meshes() const { return !meshes_.empty(); }
+  // Of the view that the sample shows. Throws std::out_of_range without meshes.
   FoundMesh copy_mesh(int number) const;
 
  private:

@@ -37,16 +37,16 @@ struct SkinSettings {
   float evenness = 0.0F;        // share taken out of the texture's broad deviations, and of all round the face; 0 .. 1
   float mottling = 0.0F;        // patches a few millimetres wide, of melanin and haemoglobin: rms in log albedo
   float redness = 0.0F;         // haemoglobin in cheeks, nose, ears
-  float lip_tint = 0.0F;
-  Eigen::Vector3f lip_colour{0.4F, 0.05F, 0.08F};  // lipstick, 0 .. 1
-  float eye_shadow = 0.0F;
-  Eigen::Vector3f eye_colour{0.1F, 0.08F, 0.1F};
-  float blush = 0.0F;
-  float freckles = 0.0F;  // 0 .. 1
-  float moles = 0.0F;
-  float stubble = 0.0F;  // 0 .. 1
-  float brow = 0.0F;     // brows darkened, 0 .. 1
-  Eigen::Vector3f hair_colour{0.03F, 0.02F, 0.015F};
+  float lip_tint = 0.0F;        // strength of the lipstick, 0 .. 1
+  Eigen::Vector3f lip_colour{0.4F, 0.05F, 0.08F};       // lipstick, 0 .. 1
+  float eye_shadow = 0.0F;                              // 0 .. 1
+  Eigen::Vector3f eye_colour{0.1F, 0.08F, 0.1F};        // of the eye shadow, albedo, linear
+  float blush = 0.0F;                                   // 0 .. 1
+  float freckles = 0.0F;                                // 0 .. 1
+  float moles = 0.0F;                                   // 0 .. 1
+  float stubble = 0.0F;                                 // 0 .. 1
+  float brow = 0.0F;                                    // brows darkened, 0 .. 1
+  Eigen::Vector3f hair_colour{0.03F, 0.02F, 0.015F};    // of brows and stubble, albedo, linear
   std::array<float, kSkinRegionCount> roughness;        // m per region, jittered around core/skin_reflectance.h
   std::array<float, kSkinRegionCount> specular_albedo;  // rho_s per region
   float pore_slope = 0.05F;                             // rms slope of the pores' normals, both axes together
@@ -56,8 +56,8 @@ struct SkinSettings {
 // Measured reflectance per region: mean and standard deviation over people. Skin regions without measurements keep the estimate.
 struct SkinStatistics {
   struct Value {
-    float roughness = 0, roughness_deviation = 0;  // m
-    float specular_albedo = 0, specular_albedo_deviation = 0;
+    float roughness = 0, roughness_deviation = 0;              // m
+    float specular_albedo = 0, specular_albedo_deviation = 0;  // rho_s
     bool measured = false;
   };
   std::array<Value, kSkinRegionCount> regions;
@@ -78,15 +78,17 @@ struct SkinPoints {
 // Share of lips, brows, eyelids and beard area (upper lip, chin, jaw) at a point of a triangle, from its corners.
 Eigen::RowVector4f soft_regions(const std::array<Region, 3>& corners, const Eigen::Vector3f& weights);
 
-// #points x 3, linear. `texture` may be null: plain tone.
+// #points x 3, linear. `texture` may be null: plain tone. Throws std::invalid_argument for arrays of different lengths and for a target tone
+// outside (0, 1).
 Eigen::MatrixX3f skin_albedo(const SkinTexture* texture, const SkinSettings& settings, const SkinPoints& points);
 
 // Normals (#points x 3, unit length) disturbed by pores; footprint_m: size of a pixel on the skin, below which pores average out
 // into roughness instead (returned variance, per slope axis, is to be added to m^2 / 2).
 struct PoreNormals {
-  Eigen::MatrixX3f normal;
-  Eigen::VectorXf added_slope_variance;
+  Eigen::MatrixX3f normal;               // #points x 3, unit
+  Eigen::VectorXf added_slope_variance;  // #points
 };
+// `rest_position`: #points x 3, head frame, metres. Throws std::invalid_argument for arrays of different lengths.
 PoreNormals pore_normals(const SkinSettings& settings, const Eigen::MatrixX3f& rest_position,
                          const Eigen::MatrixX3f& normal, const Eigen::VectorXf& footprint_m);
 

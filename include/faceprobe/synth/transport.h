@@ -30,6 +30,9 @@ struct TransportOptions {
   int threads = 0;       // 0 = all; the result does not depend on it
 };
 
+// What a scene does to light, whatever the view. Shading of row i that arrives over the bounce = bounce.row(i) * (albedo x shading of the rows). A
+// row sums to at most the share of the white sky that its vertex does not see. A hit on a vertex without a row counts for the nearest vertex
+// along the mesh that has one and faces a similar way, if it is near; other hits, such as on hair or on the inside of a mesh, are dropped.
 struct SceneTransport {
   int nside = 16;
   std::vector<int> row_of_vertex;        // scene's vertices: row, or -1 where none was asked for
@@ -38,13 +41,10 @@ struct SceneTransport {
   Eigen::SparseMatrix<float, Eigen::RowMajor> bounce;  // #rows x #rows: shading gathered from radiosity of the other rows
 };
 
-// Shading of row i that arrives over the bounce = bounce.row(i) * (albedo x shading of the rows). A row sums to at most the share of
-// the white sky that its vertex does not see. A hit on a vertex without a row counts for the nearest vertex along the mesh that has
-// one and faces a similar way, if it is near; other hits, such as on hair or on the inside of a mesh, are dropped.
-
 // Vertices that the fragments of some views need (sorted, unique).
 std::vector<int> vertices_seen(std::span<const Fragments* const> views);
 
+// `vertices`: the scene's numbers. Throws std::invalid_argument for one that it does not have.
 SceneTransport build_scene_transport(const Scene& scene, const std::vector<int>& vertices,
                                      const TransportOptions& options);
 
@@ -63,6 +63,8 @@ struct ViewTransport {
   std::vector<int> hair;            // fragments that are hair ...
   PackedRows hair_diffuse;  // ... and their rows: Kajiya & Kay's diffuse, energy-normalised so that white hair in a white furnace is <= 1
 };
+// `fragments`: of this scene, from find_fragments(); `camera_position`: scene frame, metres. Throws std::invalid_argument when their arrays or
+// the cells of the transport do not fit.
 ViewTransport build_view_transport(const Scene& scene, const SceneTransport& transport, Fragments fragments,
                                    FragmentSurface surface, const Eigen::Vector3f& camera_position,
                                    const TransportOptions& options);
@@ -77,7 +79,7 @@ struct ShadeOptions {
   int threads = 0;
   int near_light_samples = 16;  // points on each near lamp
 };
-// One result per sample. The same bytes for any number of threads.
+// One result per sample. The same bytes for any number of threads. Throws std::invalid_argument for another number of cells.
 std::vector<FragmentLight> shade(const Scene& scene, const SceneTransport& transport, const ViewTransport& view,
                                  std::span<const LightSample> samples, const ShadeOptions& options);
 

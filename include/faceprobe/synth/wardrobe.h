@@ -10,6 +10,7 @@
 
 namespace faceprobe::synth {
 
+// Hair, headwear, glasses, and what is held before the face.
 enum class HairCut : std::uint8_t { kBald, kBuzz, kShort, kParted, kFringe, kLong, kCurly, kTied };
 enum class Headwear : std::uint8_t { kNone, kBeanie, kCap, kScarf };
 enum class Glasses : std::uint8_t { kNone, kRound, kSquare, kSun };
@@ -19,7 +20,7 @@ struct WardrobeSettings {
   HairCut cut = HairCut::kShort;
   Eigen::Vector3f hair_colour{0.03F, 0.02F, 0.015F};  // linear
   float beard = 0.0F;                                 // 0 none .. 1 full
-  float moustache = 0.0F;
+  float moustache = 0.0F;                             // 0 none .. 1 full
   Headwear headwear = Headwear::kNone;
   Glasses glasses = Glasses::kNone;
   Held held = Held::kNone;
@@ -27,6 +28,7 @@ struct WardrobeSettings {
   int strands = 9000;                             // of a full head of hair
   std::uint64_t seed = 0;                         // of everything else: colours, sizes, strands
 };
+// As people come: shares are in the source.
 WardrobeSettings draw_wardrobe(Random& random);
 
 // Meshes and strands to add to the head's figure, in the head frame. The torso's clothes are always among them.

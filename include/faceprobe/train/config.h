@@ -52,8 +52,8 @@ struct TrainConfig {
   int batch = 16;  // samples to a step
   std::int64_t steps = 20000;
   double learning_rate = 1e-3;  // AdamW's, at its peak
-  double weight_decay = 0.01;
-  std::int64_t warm_up = 300;  // steps until the peak; from there a half cosine down to final_share of it
+  double weight_decay = 0.01;   // AdamW's
+  std::int64_t warm_up = 300;   // steps until the peak; from there a half cosine down to final_share of it
   double final_share = 0.01;
   double average_decay = 0.998;   // of the running average of the weights, which is what is kept
   double largest_gradient = 1.0;  // norm over all weights

@@ -31,8 +31,8 @@ struct FinetuneConfig {
   double weight = 3.0;          // of the loss on people against that on synthetic faces
   // Within the loss on people, of the hold on each photo's mean highlight; see PersonLossOptions. None in paper mode.
   double energy_weight = 0.5;
-  double largest_gradient = 1.0;
-  double held_out_share = 0.25;  // of the people, to measure on
+  double largest_gradient = 1.0;  // norm over all weights
+  double held_out_share = 0.25;   // of the people, to measure on
   std::uint64_t seed = 1;
 
   // Empty when usable, else a sentence that says which value is wrong.
@@ -58,10 +58,10 @@ struct PeopleScore {
 
 struct FinetuneRow {
   std::int64_t step = 0;
-  double residual = 0;  // means since the last row, of what was trained on
-  double energy = 0;
-  double guards = 0;
-  double synthetic_loss = 0;
+  double residual = 0;        // means since the last row, of what was trained on; as PeopleScore's
+  double energy = 0;          // mean highlight, 0 .. 1, linear
+  double guards = 0;          // loss of the guards against layers that no skin has, weighted
+  double synthetic_loss = 0;  // of the synthetic faces, without unit
 };
 
 struct FinetuneReport {
@@ -72,8 +72,8 @@ struct FinetuneReport {
 };
 
 struct FinetuneHooks {
-  std::function<void(const FinetuneRow&, std::int64_t steps)> progress;
-  std::function<bool()> stop;
+  std::function<void(const FinetuneRow&, std::int64_t steps)> progress;  // at each row; of how many steps
+  std::function<bool()> stop;                                            // asked at each step; true ends the run
 };
 
 // Throws Error: kInput (weights of another architecture than unet and face, too few people), kUsage, kOutput, kUnexpected (the loss is

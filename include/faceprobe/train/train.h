@@ -34,10 +34,10 @@ struct TrainRun {
 
 // Errors of the highlight layer on the 0-255 scale, means over pictures of the root mean square (paper, Table 1).
 struct Validation {
-  double skin = 0;        // on the face's skin
-  double whole = 0;       // on the whole picture
-  double black_skin = 0;  // what an empty layer would have
-  double black_whole = 0;
+  double skin = 0;         // on the face's skin
+  double whole = 0;        // on the whole picture
+  double black_skin = 0;   // what an empty layer would have
+  double black_whole = 0;  // the same of the whole picture
   // Of the face network; 0 for the others.
   double normal_deg = 0;    // mean angle between normals on the face's skin
   double region_share = 0;  // of pixels whose region is right
@@ -46,9 +46,9 @@ struct Validation {
 };
 
 struct TrainRow {
-  std::int64_t step = 0;  // steps done
-  double loss = 0;        // mean since the last row
-  double learning_rate = 0;
+  std::int64_t step = 0;     // steps done
+  double loss = 0;           // mean since the last row
+  double learning_rate = 0;  // at that step
   double samples_per_second = 0;
   bool validated = false;
   Validation validation;
@@ -57,7 +57,7 @@ struct TrainRow {
 struct TrainProgress {
   TrainRow row;
   std::int64_t steps = 0;
-  double seconds_left = 0;
+  double seconds_left = 0;  // at the present rate
 };
 
 struct TrainReport {

@@ -21,13 +21,13 @@ struct LightConfig {
   int batch = 128;
   int epochs = 60;
   double learning_rate = 1.5e-3;  // AdamW's at its peak; half a cosine down to 0
-  double weight_decay = 1e-3;
-  double average_decay = 0.99;  // of the running average of the weights, which is what is kept
-  double drop = 0.2;            // share of hidden units left out in each step
-  double input_drop = 0.1;      // of inputs
-  double input_noise = 0.1;     // of standardised inputs
-  double grey_share = 0.05;     // of examples without colour
-  double lobe_weight = 0.15;    // of the glossy ball's error against the diffuse ball's
+  double weight_decay = 1e-3;     // AdamW's
+  double average_decay = 0.99;    // of the running average of the weights, which is what is kept
+  double drop = 0.2;              // share of hidden units left out in each step
+  double input_drop = 0.1;        // of inputs
+  double input_noise = 0.1;       // of standardised inputs
+  double grey_share = 0.05;       // of examples without colour
+  double lobe_weight = 0.15;      // of the glossy ball's error against the diffuse ball's
   std::uint64_t seed = 1;
 
   // Empty when usable, else a sentence that says which value is wrong.
