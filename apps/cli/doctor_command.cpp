@@ -33,6 +33,9 @@ void add_doctor(CLI::App& program, Action& action) {
   CLI::App* command =
       program.add_subcommand("doctor", "whether this installation works: models, a known light, the renderer");
   command->add_flag("--json", *json, "the same as JSON");
+  command->footer(
+      "A line for each check, ok or FAIL; the exit code is that of the first one that failed.\n\n"
+      "Example:\n  faceprobe doctor");
   command->callback([json, &action] { action = [json] { return run(*json); }; });
 }
 

@@ -135,17 +135,22 @@ void add_estimate(CLI::App& program, Action& action) {
   command
       ->add_option("-o,--output", options->output,
                    "folder for everything, or NAME.exr/.hdr/.png for the largest face's map alone")
+      ->type_name("PATH")
       ->capture_default_str();
   command->add_flag("--json", options->json, "print the report on stdout");
   command->add_flag("--timings", options->timings, "print a table of stage times on stderr");
   command->add_flag("--same-light", options->same_light,
                     "the photos are of one camera, place and light, as a burst is: also one map of all their faces");
-  command
-      ->add_option("--orient", options->orientation, "column convention of the maps: openexr, three, blender, debevec")
+  command->add_option("--orient", options->orientation, "how the columns of the maps are laid out: for which program")
+      ->type_name("{openexr,three,blender,debevec}")
       ->capture_default_str();
   add_face_options(*command, *options);
   add_solver_options(*command, *options);
   command->footer(
+      "The folder gets the environment map (environment.exr, .hdr and a .png to look at) with its confidence, scenes\n"
+      "for USD and Blender, the layers of the face, overview.png, and report.json with pose, spherical harmonics and\n"
+      "main lights. Several faces get folders of their own, face_1, face_2, ... from left to right, beside joint, the\n"
+      "light of all; several photos get folders of their names.\n\n"
       "Examples:\n  faceprobe estimate portrait.jpg -o out\n  faceprobe estimate portrait.jpg -o light.exr --orient "
       "blender\n"
       "  faceprobe estimate a.jpg b.jpg -o out --json > reports.json\n"

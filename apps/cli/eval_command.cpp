@@ -41,22 +41,45 @@ void add_eval(CLI::App& program, Action& action) {
   command->add_option("STAGE", options->stage, "what to measure")
       ->required()
       ->check(CLI::IsMember({"highlight", "geometry", "shading", "relight", "insert", "triangulate"}));
-  command->add_option("--data", options->data, "folder that `faceprobe synth` wrote")->required();
-  command->add_option("--weights", options->weights, "networks to measure beside what needs none: FILE or NAME=FILE");
+  command->add_option("--data", options->data, "folder that `faceprobe synth` wrote")->type_name("DIR")->required();
+  command
+      ->add_option(
+          "--weights", options->weights,
+          "networks to measure beside what needs none; default: none, or where a stage needs one, the program's")
+      ->type_name("[NAME=]FILE");
   command->add_option("--samples", options->samples, "photos, spread evenly over the data")->capture_default_str();
-  command->add_option("-o,--output", options->output, "folder for STAGE.csv, STAGE.json and a picture");
+  command
+      ->add_option("-o,--output", options->output,
+                   "folder for STAGE.csv, STAGE.json and a picture; default: nothing is written")
+      ->type_name("DIR");
   command->add_option("--rows", options->rows, "photos in that picture")->capture_default_str()->check(CLI::Range(1, 200));
-  command->add_option("--object", options->object,
-                      "relight: OBJ file to put in the light; a sphere without. insert: a shape or a model file");
-  command->add_option("--scenes", options->scenes, "relight: CSV that names the maps indoor or outdoor");
-  command->add_option("--training", options->training, "relight: data whose mean light is a row");
-  command->add_option("--prior-weights", options->prior, "relight, insert, triangulate: weights of the light prior");
-  command->add_flag("--ablation", options->ablation, "relight: rows with normals or layers known");
-  command->add_option("--device", options->device, "auto, cpu, cuda or cuda:N")->capture_default_str();
-  command->add_option("--threads", options->threads, "0 = all processors")->capture_default_str();
+  command
+      ->add_option(
+          "--object", options->object,
+          "for relight, an OBJ file to put in the light, default: a sphere; for insert, a shape or a model file, "
+          "default: spheres")
+      ->type_name("FILE");
+  command
+      ->add_option("--scenes", options->scenes,
+                   "for relight: CSV that names the maps indoor or outdoor; default: they are not told apart")
+      ->type_name("FILE");
+  command
+      ->add_option("--training", options->training, "for relight: data whose mean light is a row; default: no such row")
+      ->type_name("DIR");
+  command
+      ->add_option(
+          "--prior-weights", options->prior,
+          "for relight, insert, triangulate: weights of the light prior; default: those that come with the program")
+      ->type_name("FILE");
+  command->add_flag("--ablation", options->ablation, "for relight: rows with normals or layers known");
+  command->add_option("--device", options->device, "for highlight: what computes; cuda:N is one of several cards")
+      ->type_name("{auto,cpu,cuda}")
+      ->capture_default_str();
+  command->add_option("--threads", options->threads, "threads; 0 = all processors")->capture_default_str();
   command->footer(
-      "Prints Markdown.\n\nExample:\n  faceprobe eval highlight --data faces/dev --weights run/weights.safetensors -o "
-      "out");
+      "Prints Markdown.\n\nExamples:\n  faceprobe eval highlight --data faces/dev --weights run/weights.safetensors -o "
+      "out\n"
+      "  faceprobe eval relight --data faces/dev --scenes scenes.csv");
   command->callback([options, &action] { action = [options] { return run(*options); }; });
 }
 

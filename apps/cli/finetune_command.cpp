@@ -69,15 +69,16 @@ void add_finetune(CLI::App& program, Action& action) {
                    "folder with one folder of photos a person, at any depth, or one that `faceprobe synth` wrote")
       ->required()
       ->check(CLI::ExistingDirectory);
-  command->add_option("--start", options->start, "weights to begin with")->required();
+  command->add_option("--start", options->start, "weights to begin with")->type_name("FILE")->required();
   command
       ->add_option("--data", options->synthetic, "folder that `faceprobe synth` wrote, for every step's synthetic faces")
+      ->type_name("DIR")
       ->required();
-  command->add_option("-o,--output", options->output, "folder for weights and log")->required();
-  command->add_option("--mode", options->config.mode, "default, or paper: second singular value, nothing blurred")
+  command->add_option("-o,--output", options->output, "folder for weights and log")->type_name("DIR")->required();
+  command->add_option("--mode", options->config.mode, "the loss; paper: second singular value, nothing blurred")
       ->capture_default_str()
       ->check(CLI::IsMember({"default", "paper"}));
-  command->add_option("--steps", options->config.steps, "steps")->capture_default_str();
+  command->add_option("--steps", options->config.steps, "steps of training")->capture_default_str();
   command->add_option("--photos", options->config.photos, "photos of one person in a step")->capture_default_str();
   command->add_option("--most-photos", options->photos.most_photos, "photos of one person at all")->capture_default_str();
   command
@@ -88,12 +89,12 @@ void add_finetune(CLI::App& program, Action& action) {
                     "decode each photo by the response curve that its skin tells of, not as sRGB");
   command->add_option("--synthetic-batch", options->config.synthetic_batch, "synthetic faces in a step")
       ->capture_default_str();
-  command->add_option("--learning-rate", options->config.learning_rate, "AdamW's")->capture_default_str();
-  command->add_option("--weight", options->config.weight, "of the people's loss against that on synthetic faces")
+  command->add_option("--learning-rate", options->config.learning_rate, "learning rate of AdamW")->capture_default_str();
+  command->add_option("--weight", options->config.weight, "weight of the people's loss against that on synthetic faces")
       ->capture_default_str();
   command
       ->add_option("--energy-weight", options->config.energy_weight,
-                   "within the people's loss, of the hold on each photo's mean highlight")
+                   "weight, within the people's loss, of the hold on each photo's mean highlight")
       ->capture_default_str();
   command->add_option("--most-people", options->most_people, "synthetic people at all")
       ->capture_default_str()
@@ -101,7 +102,7 @@ void add_finetune(CLI::App& program, Action& action) {
   command->add_option("--held-out", options->config.held_out_share, "share of the people to measure on")
       ->capture_default_str();
   command->add_option("--seed", options->config.seed, "the same seed gives the same run")->capture_default_str();
-  command->add_option("--threads", options->photos.threads, "0 = all processors")->capture_default_str();
+  command->add_option("--threads", options->photos.threads, "threads; 0 = all processors")->capture_default_str();
   command->footer(
       "Prints a table of people it was not trained on. Weights inherit the terms of the photos.\n\nExample:\n"
       "  faceprobe finetune --people people --start models/face.safetensors --data faces/train -o finetuned");

@@ -90,6 +90,7 @@ void add_info(CLI::App& program, Action& action) {
   CLI::App* command = program.add_subcommand("info", "what a photo file is, and which faces are in it");
   add_inputs(*command, *options);
   command->add_flag("--json", options->json, "one JSON object per photo and line");
+  command->footer("Example:\n  faceprobe info --json *.jpg > photos.jsonl");
   command->callback([options, &action] { action = [options] { return run(*options); }; });
 }
 

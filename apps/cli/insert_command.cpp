@@ -5,6 +5,7 @@
 #include "faceprobe/pipeline/insertion.h"
 #include "faceprobe/pipeline/insertion_files.h"
 #include "faceprobe/render/shapes.h"
+#include "option_tree.h"
 #include "progress.h"
 #include "shared_options.h"
 
@@ -96,28 +97,33 @@ void add_insert(CLI::App& program, Action& action) {
   add_inputs(*command, *options);
   command
       ->add_option("-o,--output", options->output, "folder for everything, or NAME.png/.exr/.hdr for the picture alone")
+      ->type_name("PATH")
       ->capture_default_str();
   command
       ->add_option("--object", options->object,
-                   assets::listed(render::shape_names()) + ", or an OBJ, PLY, STL, glTF or GLB file")
+                   "what to put in: one of these shapes, or an OBJ, PLY, STL, glTF or GLB file")
+      ->type_name("{" + joined(render::shape_names(), ",") + "}|FILE")
       ->capture_default_str();
-  command->add_option("--material", options->material,
-                      "in place of the object's own: " + assets::listed(render::material_preset_names()));
+  command->add_option("--material", options->material, "what all of it is made of; default: the object's own")
+      ->type_name("{" + joined(render::material_preset_names(), ",") + "}");
   command
       ->add_option("--at", options->at_px,
-                   "X Y: pixel of the photo where its foot stands; default: the lower corner with more room")
+                   "pixel of the photo, X and Y, where its foot stands; default: the lower corner with more room")
       ->expected(2);
   command->add_option("--distance", options->depth_m,
-                      "metres from the camera; default: three quarters of the largest face's");
+                      "metres from the camera to it; default: three quarters of the largest face's");
   command->add_option("--height", options->height_m,
-                      "metres; default: its longer side takes 35 % of the picture's shorter one");
+                      "its height in metres; default: its longer side takes 35 % of the picture's shorter one");
   command->add_option("--turn", options->turn_deg, "degrees about its own axis, its front to the right")
       ->capture_default_str();
   command->add_option("--horizon", options->horizon_px,
                       "height of the horizon in the photo, pixels from the top; default: from the heads");
   command->add_flag("--no-ground", options->no_ground, "it floats: nothing takes its shadow");
-  command->add_option("--matte", options->matte,
-                      "picture of the photo's size, white where a person stands before far things");
+  command
+      ->add_option("--matte", options->matte,
+                   "picture of the photo's size, white where a person stands before far things; default: what is known "
+                   "of the faces")
+      ->type_name("FILE");
   command->add_flag("--preview", options->preview,
                     "a quick look, its longer side " + std::to_string(kPreviewPx) + " pixels at most");
   command->add_option("--samples", options->samples, "most rays per pixel")
@@ -125,11 +131,13 @@ void add_insert(CLI::App& program, Action& action) {
       ->check(CLI::Range(1, 1 << 20));
   command->add_option("--noise", options->noise, "stop where the picture is this quiet; 0: never before --samples")
       ->capture_default_str();
-  command->add_option("--seed", options->seed, "of the rays")->capture_default_str();
+  command->add_option("--seed", options->seed, "the same seed gives the same rays")->capture_default_str();
   command->add_flag("--json", options->json, "print what stands where on stdout");
   add_face_options(*command, *options);
   add_solver_options(*command, *options);
   command->footer(
+      "Takes one photo. The folder gets composite.png, the object alone with alpha, its shadow, depth and normals,\n"
+      "and insert.json, which says what stands where.\n\n"
       "Examples:\n  faceprobe insert portrait.jpg -o with_pot.png\n"
       "  faceprobe insert portrait.jpg --object bunny.ply --material silver --height 0.15 --preview -o look.png\n"
       "  faceprobe insert portrait.jpg --object robot.glb --at 300 1180 --turn 30 -o out");

@@ -56,6 +56,8 @@ int main(int argc, char** argv) {
   cli::add_insert(program, action);
   cli::add_info(program, action);
   cli::add_doctor(program, action);
+  cli::add_manual(program, action);
+  cli::add_completion(program, action);
 #ifdef FACEPROBE_HAS_SERVE
   cli::add_serve(program, action);
 #endif

@@ -36,8 +36,8 @@ void add_mesh(CLI::App& program, Action& action) {
   auto options = std::make_shared<Options>();
   CLI::App* command =
       program.add_subcommand("mesh", "finds the face mesh in synthetic photos, for training the face network");
-  command->add_option("FOLDER", options->folder, "folder that `faceprobe synth` wrote")->required();
-  command->add_option("--threads", options->threads, "0 = all processors")->capture_default_str();
+  command->add_option("FOLDER", options->folder, "folder that `faceprobe synth` wrote")->type_name("DIR")->required();
+  command->add_option("--threads", options->threads, "threads; 0 = all processors")->capture_default_str();
   command->footer("Example:\n  faceprobe mesh faces/train");
   command->callback([options, &action] { action = [options] { return run(*options); }; });
 }

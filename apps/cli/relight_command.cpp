@@ -50,17 +50,27 @@ void add_relight(CLI::App& program, Action& action) {
   CLI::App* command =
       program.add_subcommand("relight", "a photo's faces in another light: a preview, of the faces alone");
   add_inputs(*command, *options);
-  command->add_option("-o,--output", options->output, "NAME.png, .exr or .hdr")->capture_default_str();
-  command->add_option("--map", options->map,
-                      "lat-long .exr or .hdr map that lights the faces instead, as strong as their own light");
-  command->add_option("--dim", options->dim, "put out this many of the photo's main lights, the strongest first")
+  command->add_option("-o,--output", options->output, "the picture: NAME.png, .exr or .hdr")
+      ->type_name("FILE")
+      ->capture_default_str();
+  command
+      ->add_option("--map", options->map,
+                   "lat-long .exr or .hdr map that lights the faces, as strong as their own light; default: their own")
+      ->type_name("FILE");
+  command
+      ->add_option("--dim", options->dim,
+                   "put out this many of the photo's main lights, the strongest first; default: none")
       ->check(CLI::Range(1, 5));
-  command->add_option("--turn", options->turn_deg,
-                      "turn the light about the vertical, degrees, to the right seen from above the photo");
-  command->add_option("--exposure", options->exposure, "stops brighter or darker");
+  command
+      ->add_option("--turn", options->turn_deg,
+                   "turn the light about the vertical, degrees, to the right seen from above the photo")
+      ->capture_default_str();
+  command->add_option("--exposure", options->exposure, "stops brighter or, below 0, darker")->capture_default_str();
   add_face_options(*command, *options);
   add_solver_options(*command, *options);
   command->footer(
+      "Takes one photo, and one of --map, --dim, --turn and --exposure at least; --dim is of the photo's own light.\n"
+      "Hair, neck, clothes and room stay as they are.\n\n"
       "Examples:\n  faceprobe relight portrait.jpg --dim 1 -o without_sun.png\n"
       "  faceprobe relight portrait.jpg --map studio.hdr --turn 40 -o studio.png");
   command->callback([options, &action] { action = [options] { return run(*options); }; });

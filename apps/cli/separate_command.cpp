@@ -43,7 +43,9 @@ void add_separate(CLI::App& program, Action& action) {
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand("separate", "highlight and diffuse layer of a photo at its own size");
   add_inputs(*command, *options);
-  command->add_option("-o,--output", options->output, "folder for highlight.exr and diffuse.exr")->capture_default_str();
+  command->add_option("-o,--output", options->output, "folder for highlight.exr and diffuse.exr")
+      ->type_name("DIR")
+      ->capture_default_str();
   add_face_options(*command, *options);
   command->footer(
       "The layers are linear, 1 = the photo's white. The highlight layer is black outside the faces' skin, where the\n"

@@ -128,8 +128,9 @@ void add_serve(CLI::App& program, Action& action) {
   CLI::App* command = program.add_subcommand("serve", "a page in the browser for all of this, on this machine alone");
   command->add_option("--port", options->port, "of 127.0.0.1; 0: any that is free")->capture_default_str();
   command->add_flag("--open", options->open, "start the browser");
-  command->add_option("--folder", options->folder,
-                      "keep the results here; default: a temporary folder, gone at the end");
+  command
+      ->add_option("--folder", options->folder, "keep the results here; default: a temporary folder, gone at the end")
+      ->type_name("DIR");
   command->add_option("--max-upload", options->max_upload_mb, "megabytes of a photo's file")
       ->capture_default_str()
       ->check(CLI::Range(1, 1024));

@@ -31,45 +31,61 @@ Choice one_of(const std::string& text, const char* option, const char* first, Ch
 }  // namespace
 
 void add_inputs(CLI::App& command, SharedOptions& options) {
-  command.add_option("PHOTO", options.inputs, "photos: JPEG, PNG, TIFF, WebP, HEIC, EXR, HDR")->required();
+  command.add_option("PHOTO", options.inputs, "photos, as JPEG, PNG, TIFF, WebP, HEIC, EXR or HDR")
+      ->type_name("FILE")
+      ->required();
   command.add_option("--max-pixels", options.limits.max_pixels, "largest photo accepted, in pixels")
       ->capture_default_str();
   command.add_option("--max-bytes", options.limits.max_file_bytes, "largest file accepted, in bytes")
       ->capture_default_str();
-  command.add_option("--threads", options.threads, "threads; 0 = all")->capture_default_str()->check(CLI::Range(0, 1024));
+  command.add_option("--threads", options.threads, "threads; 0 = all processors")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1024));
 }
 
 void add_face_options(CLI::App& command, SharedOptions& options) {
   command
       .add_option("--separator", options.separator, "highlight separator: net (trained), or tan, yang, shen (classical)")
+      ->type_name("{net,tan,yang,shen}")
       ->capture_default_str();
-  command.add_option("--weights", options.weights,
-                     "weights of the network in place of those that come with the program");
-  command.add_option(
-      "--landmarks", options.landmarks,
-      "x1,y1,... in pixels instead of detection: 5 points (eyes left to right, nose tip, mouth corners) or 68");
-  command.add_option("--focal-px", options.focal_px, "focal length in pixels; default from EXIF, else a 50 mm lens");
+  command.add_option("--weights", options.weights, "weights of the network; default: those that come with the program")
+      ->type_name("FILE");
+  command
+      .add_option("--landmarks", options.landmarks,
+                  "5 points of the face (eyes left to right, nose tip, mouth corners) or 68, in pixels; default: they "
+                  "are found")
+      ->type_name("X1,Y1,...");
+  command.add_option("--focal-px", options.focal_px, "focal length in pixels; default: from EXIF, else a 50 mm lens");
   command.add_flag("--deterministic", options.deterministic, "bitwise the same result for any number of threads");
-  command.add_option("--device", options.device, "auto, cpu or cuda[:N]")->capture_default_str();
+  command
+      .add_option("--device", options.device, "what computes; cuda and cuda:N are refused, as this version has neither")
+      ->type_name("{auto,cpu}")
+      ->capture_default_str();
 }
 
 void add_solver_options(CLI::App& command, SharedOptions& options) {
-  command.add_option("--solver", options.solver, "transport, or paper (the published scheme)")->capture_default_str();
+  command.add_option("--solver", options.solver, "what finds the light: transport, or paper (the published scheme)")
+      ->type_name("{transport,paper}")
+      ->capture_default_str();
   command.add_option("--geometry", options.geometry, "where normals come from: net (trained), or mesh")
+      ->type_name("{net,mesh}")
       ->capture_default_str();
   command
       .add_option("--shading", options.shading,
                   "what splits the diffuse layer: net (trained), or regions (one albedo a region)")
+      ->type_name("{net,regions}")
       ->capture_default_str();
   command
       .add_option(
           "--prior", options.prior,
           "what light the transport solver starts from: net (trained), or smooth (one lamp and an even surround)")
+      ->type_name("{net,smooth}")
       ->capture_default_str();
-  command.add_option("--iterations", options.iterations, "Richardson-Lucy iterations")->capture_default_str();
-  command.add_option("--size", options.size, "width of the environment map, or WIDTHxHEIGHT with WIDTH = 2 HEIGHT")
+  command.add_option("--iterations", options.iterations, "Richardson-Lucy iterations, 1 to 10000")->capture_default_str();
+  command.add_option("--size", options.size, "size of the environment map in pixels, twice as wide as high")
+      ->type_name("WIDTH[xHEIGHT]")
       ->capture_default_str();
-  command.add_option("--layer-px", options.layer_px, "long side of the layer pictures")->capture_default_str();
+  command.add_option("--layer-px", options.layer_px, "long side of the layer pictures, in pixels")->capture_default_str();
 }
 
 Eigen::MatrixX2f parse_landmarks(const std::string& text) {

@@ -146,19 +146,26 @@ void add_synth(CLI::App& program, Action& action) {
   CLI::App* command =
       program.add_subcommand("synth", "synthetic faces with every layer known, for training and measuring");
   synth::Recipe& recipe = options->recipe;
-  command->add_option("--heads", options->heads,
-                      "head model: ICT-FaceKit folder, Basel .mat or .h5, .obj; without it a small built-in head");
-  command->add_option("--skins", options->skins, "folder of skin textures in the head's UVs");
-  command->add_option("--maps", options->maps,
-                      "folder of HDR environment maps, .hdr or .exr; without it a few built-in ones");
-  command->add_option("--reflectance", options->reflectance,
-                      "measured skin reflectance (MERL/ETH ts_data.mat) in place of the built-in estimate");
+  command
+      ->add_option("--heads", options->heads,
+                   "head models: an ICT-FaceKit folder, Basel .mat or .h5, .obj; default: a small built-in head")
+      ->type_name("PATH");
+  command
+      ->add_option("--skins", options->skins,
+                   "folder of skin textures in the head's UVs; default: skin made without a picture")
+      ->type_name("DIR");
+  command
+      ->add_option("--maps", options->maps, "folder of HDR environment maps, .hdr or .exr; default: a few built-in ones")
+      ->type_name("DIR");
+  command
+      ->add_option("--reflectance", options->reflectance,
+                   "measured skin reflectance (MERL/ETH ts_data.mat); default: a built-in estimate")
+      ->type_name("FILE");
   command->add_option("--count", recipe.count, "samples to make")->capture_default_str();
   command->add_option("--size", recipe.size_px, "width and height of a sample, px")->capture_default_str();
   command->add_option("--seed", recipe.seed, "the same seed gives the same bytes")->capture_default_str();
   command
-      ->add_option("--mode", options->mode,
-                   "default = photos; paper = bare heads as in the ECCV 2018 paper's Section 5.1")
+      ->add_option("--mode", options->mode, "what is drawn; paper: bare heads as in the ECCV 2018 paper's Section 5.1")
       ->check(CLI::IsMember({"default", "paper"}))
       ->capture_default_str();
   command->add_option("--split", options->split, "train and dev share no identity and no skin texture")
@@ -170,8 +177,12 @@ void add_synth(CLI::App& program, Action& action) {
   command->add_option("--lights", recipe.samples_per_view, "maps that light each pose")->capture_default_str();
   command->add_option("--skins-per-person", recipe.skins_per_person, "skins that take turns")->capture_default_str();
   command->add_option("-o,--output", options->output, "folder for the shards, index.json and CARD.md")
+      ->type_name("DIR")
       ->capture_default_str();
-  command->add_option("--preview", options->preview, "also write a contact sheet of the data set to this picture");
+  command
+      ->add_option("--preview", options->preview,
+                   "also write a contact sheet of the data set to this picture; default: none")
+      ->type_name("FILE");
   command->add_option("--preview-count", options->preview_count, "samples on the sheet")
       ->capture_default_str()
       ->check(CLI::Range(1, 1024));

@@ -40,13 +40,18 @@ void add_trace(CLI::App& program, Action& action) {
   auto options = std::make_shared<Options>();
   CLI::App* command =
       program.add_subcommand("trace", "reads synthetic photos as an estimate does, for training the light prior");
-  command->add_option("FOLDER", options->folder, "folder that `faceprobe synth` wrote, with its meshes")->required();
+  command
+      ->add_option("FOLDER", options->folder, "folder that `faceprobe synth` wrote, with the meshes of `faceprobe mesh`")
+      ->type_name("DIR")
+      ->required();
   command->add_option("--count", options->count, "photos to read, spread evenly over the data")
       ->capture_default_str()
       ->check(CLI::Range(1, 100'000'000));
-  command->add_option("--weights", options->weights,
-                      "weights of the face network in place of those that come with the program");
-  command->add_option("--threads", options->threads, "0 = all processors")->capture_default_str();
+  command
+      ->add_option("--weights", options->weights,
+                   "weights of the face network; default: those that come with the program")
+      ->type_name("FILE");
+  command->add_option("--threads", options->threads, "threads; 0 = all processors")->capture_default_str();
   command->footer("Example:\n  faceprobe trace faces/train --count 12000");
   command->callback([options, &action] { action = [options] { return run(*options); }; });
 }

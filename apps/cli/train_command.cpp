@@ -83,17 +83,25 @@ int run(Options options) {
 void add_train(CLI::App& program, Action& action) {
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand("train", "trains a network on synthetic faces");
-  command->add_option("NET", options->net, "which one")
+  command->add_option("NET", options->net, "which network")
       ->required()
       ->check(CLI::IsMember({"highlight", "face", "light"}));
-  command->add_option("--config", options->config, "training config, JSON; without it the defaults")
+  command->add_option("--config", options->config, "training config, JSON; default: the built-in one")
       ->check(CLI::ExistingFile);
-  command->add_option("--data", options->run.data, "folder that `faceprobe synth` wrote")->required();
-  command->add_option("--validation", options->run.validation_data, "such a folder of other people, to measure on");
-  command->add_option("--start", options->run.start, "weights to begin with");
-  command->add_option("-o,--output", options->run.folder, "folder for checkpoint, log, pictures and weights")->required();
-  command->add_option("--device", options->device, "auto, cpu, cuda or cuda:N")->capture_default_str();
-  command->add_option("--threads", options->run.threads, "0 = all processors")->capture_default_str();
+  command->add_option("--data", options->run.data, "folder that `faceprobe synth` wrote")->type_name("DIR")->required();
+  command
+      ->add_option("--validation", options->run.validation_data,
+                   "such a folder of other people, to measure on; default: nothing is measured")
+      ->type_name("DIR");
+  command->add_option("--start", options->run.start, "weights to begin with; default: drawn at random")
+      ->type_name("FILE");
+  command->add_option("-o,--output", options->run.folder, "folder for checkpoint, log, pictures and weights")
+      ->type_name("DIR")
+      ->required();
+  command->add_option("--device", options->device, "what computes; cuda:N is one of several cards")
+      ->type_name("{auto,cpu,cuda}")
+      ->capture_default_str();
+  command->add_option("--threads", options->run.threads, "threads; 0 = all processors")->capture_default_str();
   command->add_flag("--repeat-batch", options->run.repeat_batch,
                     "train on one batch again and again and save nothing: the speed without data");
   command->add_flag("--json", options->json, "one JSON object on stdout at the end");

@@ -91,19 +91,26 @@ CLI::App* add_unwrap(CLI::App& synth, Action& action) {
   auto options = std::make_shared<Options>();
   CLI::App* command = synth.add_subcommand("unwrap", "a skin texture in a head's UVs out of a frontal photo");
   command->fallthrough(false);
-  command->add_option("PHOTO", options->inputs, "photos, a face each; of several the largest is taken")->required();
+  command->add_option("PHOTO", options->inputs, "photos, a face each; of several the largest is taken")
+      ->type_name("FILE")
+      ->required();
   command->add_option("--head", options->head, "head model with UVs and landmarks, such as an ICT-FaceKit folder")
+      ->type_name("PATH")
       ->required();
   command->add_option("-o,--output", options->output, "folder for NAME.png, or for one photo a .png")
+      ->type_name("PATH")
       ->capture_default_str();
-  command->add_option("--coverage", options->coverage,
-                      "folder for pictures of what was read (white) and filled (black)");
+  command
+      ->add_option("--coverage", options->coverage,
+                   "folder for pictures of what was read (white) and filled (black); default: none are written")
+      ->type_name("DIR");
   command->add_option("--size", options->unwrap.size_px, "width and height of the texture, px")->capture_default_str();
   command->add_option("--max-yaw", options->unwrap.max_yaw_deg, "faces turned further are refused, degrees")
       ->capture_default_str();
-  command->add_option("--separator", options->separator, "takes the highlights out: tan, yang or shen")
+  command->add_option("--separator", options->separator, "what takes the highlights out")
+      ->type_name("{tan,yang,shen}")
       ->capture_default_str();
-  command->add_option("--threads", options->unwrap.threads, "0 = all processors")->capture_default_str();
+  command->add_option("--threads", options->unwrap.threads, "threads; 0 = all processors")->capture_default_str();
   command->add_flag("--json", options->json, "one JSON object a photo on stdout");
   command->footer(
       "Hard shadows stay in the texture: take photos in soft, frontal light.\n\nExample:\n"

@@ -20,6 +20,8 @@ source "$here/cases_results.sh"
 source "$here/cases_output.sh"
 source "$here/cases_synth.sh"
 source "$here/cases_insert.sh"
+source "$here/cases_manual.sh"
+source "$here/cases_serve.sh"
 
 declare -F "case_$name" >/dev/null || { echo "there is no case $name"; exit 2; }
 "case_$name"

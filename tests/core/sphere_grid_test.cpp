@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 #include <set>
+#include <stdexcept>
 
 namespace faceprobe {
 namespace {
@@ -94,6 +95,12 @@ TEST(SphereGrid, MapsThereAndBackKeepEnergyAndPlace) {
   Eigen::Index brightest = 0;
   cells.col(1).maxCoeff(&brightest);
   EXPECT_LT(angle_between_deg(grid.direction(static_cast<int>(brightest)).cast<double>(), {1, 0.2, 0.4}), 10);
+}
+
+TEST(SphereGrid, AMapWithoutARowForEveryCellIsRefused) {
+  const SphereGrid grid(4);
+  EXPECT_THROW(env_map_from_grid(Eigen::MatrixX3f::Ones(grid.cell_count() - 1, 3), grid, 16, 8), std::invalid_argument);
+  EXPECT_THROW(env_map_from_grid(Eigen::MatrixX3f::Ones(grid.cell_count(), 3), grid, 0, 8), std::invalid_argument);
 }
 
 TEST(SphereGrid, SmallMapsDoNotMissSmallLamps) {
