@@ -1,0 +1,32 @@
+// The estimates that the server still has.
+
+import { useCallback, useEffect, useState } from 'preact/hooks';
+
+import { deleteEstimate, listEstimates } from '../api/client.ts';
+import { sentenceOf } from '../api/failure.ts';
+import type { EstimateSummary } from '../api/types.ts';
+
+export interface History {
+  entries: EstimateSummary[];
+  trouble?: string;
+  refresh(): void;
+  remove(id: string): Promise<void>;
+}
+
+export function useHistory(): History {
+  const [state, setState] = useState<{ entries: EstimateSummary[]; trouble?: string }>({ entries: [] });
+  const fail = (error: unknown) => setState(({ entries }) => ({ entries, trouble: sentenceOf(error) }));
+  const refresh = useCallback(() => {
+    listEstimates().then((entries) => setState({ entries }), fail);
+  }, []);
+  const remove = useCallback(async (id: string) => {
+    try {
+      await deleteEstimate(id);
+      setState(({ entries }) => ({ entries: entries.filter((entry) => entry.id !== id) }));
+    } catch (error) {
+      fail(error);
+    }
+  }, []);
+  useEffect(refresh, []);
+  return { ...state, refresh, remove };
+}
