@@ -130,13 +130,14 @@ void add_estimate_routes(httplib::Server& http, Studio& studio, const ServerOpti
   http.Post(all, [&studio, &options](const Request& request, Response& response, const httplib::ContentReader& read) {
     std::shared_ptr<EstimateRecord> record;
     const std::string type = type_of(request);
+    const std::string name = shown_name(request.get_param_value("name"));
     if (type == "application/json") {
       const std::string sample = read_sample_request(read_text(read));
       const fs::path file = sample_file(options, sample);
-      record = studio.add_photo(file.filename(), [&](const fs::path& photo) { fs::copy_file(file, photo); });
+      record = studio.add_photo(request.has_param("name") ? name : file.filename().string(),
+                                [&](const fs::path& photo) { fs::copy_file(file, photo); });
     } else if (type == "application/octet-stream" || type.starts_with("image/")) {
-      record = studio.add_photo(shown_name(request.get_param_value("name")),
-                                [&](const fs::path& photo) { write_upload(photo, read); });
+      record = studio.add_photo(name, [&](const fs::path& photo) { write_upload(photo, read); });
     } else {
       throw Refusal(FailureKind::kWrongType,
                     "A photo is sent as application/octet-stream, or the name of a sample as "

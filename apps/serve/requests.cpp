@@ -47,6 +47,14 @@ std::optional<double> take_number(Json& json, const char* key) {
   return value->get<double>();
 }
 
+std::optional<int> take_index(Json& json, const char* key) {
+  const std::optional<Json> value = take(json, key);
+  if (!value) return std::nullopt;
+  if (!value->is_number_integer() || *value < 0 || *value > 1000)
+    throw Refusal(FailureKind::kUsage, "'" + std::string(key) + "' must be a whole number from 0 on.");
+  return value->get<int>();
+}
+
 bool take_switch(Json& json, const char* key, bool otherwise) {
   const std::optional<Json> value = take(json, key);
   if (!value) return otherwise;
@@ -96,6 +104,8 @@ InsertionRequest read_insertion_request(const std::string& body) {
   request.where.height_m = as_float(take_number(json, "height_m"));
   request.where.turn_deg = as_float(take_number(json, "turn_deg")).value_or(0);
   request.where.ground = take_switch(json, "ground", true);
+  request.where.face = take_index(json, "face");
+  request.where.joint_light = take_switch(json, "joint_light", false);
   const std::string quality = take_text(json, "quality", "final");
   if (quality != "preview" && quality != "final")
     throw Refusal(FailureKind::kUsage, "'quality' is preview or final, found '" + quality + "'.");

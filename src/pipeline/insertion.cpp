@@ -37,10 +37,15 @@ const FaceEstimate& nearest_face(const Estimate& estimate, const Eigen::Vector3f
 }
 
 // The face's map; and if its strongest lights are lamps whose places are known, these beside a map that is without them.
-void light_scene(const Estimate& estimate, const Eigen::Vector3f& foot, const lighting::MainLightOptions& main_lights,
+void light_scene(const Estimate& estimate, const Eigen::Vector3f& foot, const InsertionOptions& options,
                  insert::Scene& scene) {
+  if (options.joint_light && estimate.joint) {
+    scene.environment = estimate.joint->environment;
+    return;
+  }
   std::size_t index = 0;
-  const FaceEstimate& face = nearest_face(estimate, foot, index);
+  const FaceEstimate& face = options.face ? estimate.faces[index = static_cast<std::size_t>(*options.face)]
+                                          : nearest_face(estimate, foot, index);
   scene.environment = face.environment;
   if (estimate.faces.size() < 2) return;
   const Room room = find_lamps(estimate);
@@ -55,7 +60,7 @@ void light_scene(const Estimate& estimate, const Eigen::Vector3f& foot, const li
   if (count == 0) return;
   const SphereGrid grid = SphereGrid::of_cells(face.light.radiance.rows());
   const Eigen::MatrixX3f rest =
-      lighting::without_main_lights(face.light.radiance, grid, count, main_lights, face.light.confidence);
+      lighting::without_main_lights(face.light.radiance, grid, count, options.main_lights, face.light.confidence);
   scene.environment = env_map_from_grid(rest, grid, face.environment.width(), face.environment.height());
   for (auto lamp = of_light.begin(); lamp != end; ++lamp) {
     scene.lamps.push_back({.position = (*lamp)->position_m.cast<float>(),
@@ -161,6 +166,10 @@ insert::Scene scene_for(const io::Photo& photo, const Estimate& estimate, render
                                       std::to_string(options.matte.width()) + " x " +
                                       std::to_string(options.matte.height()) + ".");
   }
+  if (options.face && (*options.face < 0 || *options.face >= static_cast<int>(estimate.faces.size()))) {
+    throw Error(ExitCode::kUsage, "The faces are numbered from 0 to " + std::to_string(estimate.faces.size() - 1) +
+                                      ", left to right; found " + std::to_string(*options.face) + ".");
+  }
   const Eigen::Vector3f size = model.box().sizes();
   if (!(size.y() > kFlatShare * size.maxCoeff()))
     throw Error(ExitCode::kInput,
@@ -175,7 +184,7 @@ insert::Scene scene_for(const io::Photo& photo, const Estimate& estimate, render
   render::place(
       scene.model,
       {.height_m = spot.height_m, .foot = foot, .up = scene.up, .turn = static_cast<float>(radians(options.turn_deg))});
-  light_scene(estimate, foot, options.main_lights, scene);
+  light_scene(estimate, foot, options, scene);
   scene.matte = matte_of(estimate, options.matte);
   return scene;
 }

@@ -297,6 +297,22 @@ Estimate under_one_lamp(const Eigen::Vector3d& lamp_m) {
   return estimate;
 }
 
+TEST(Insertion, TheLightIsWhoseItIsToldToBe) {
+  Estimate estimate = only_face(60);
+  estimate.faces.push_back(face_at({0.5, 0, -kDepthM}, 400, 120));
+  estimate.faces[0].environment = even_map(1);
+  estimate.faces[1].environment = even_map(2);
+  estimate.joint = LightResult{};
+  estimate.joint->environment = even_map(3);
+  const auto level = [&](const InsertionOptions& options) {
+    return scene_for(photo_of(estimate), estimate, marker(), options).environment.radiance()(0, 0, 0);
+  };
+  EXPECT_EQ(level({.face = 0}), 1.0F);
+  EXPECT_EQ(level({.face = 1}), 2.0F);
+  EXPECT_EQ(level({.face = 1, .joint_light = true}), 3.0F);
+  expect_error(ExitCode::kUsage, {"0 to 1"}, [&] { level({.face = 2}); });
+}
+
 TEST(Insertion, ANearLampIsPutWhereItStandsAndTakenOutOfTheMap) {
   const Eigen::Vector3d lamp_m(0.2, 0.9, -0.9);
   const Estimate estimate = under_one_lamp(lamp_m);

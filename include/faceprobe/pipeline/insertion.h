@@ -24,6 +24,8 @@ struct InsertionOptions {
   float turn_deg = 0;                  // about its own axis; positive turns its front to the right of the photo
   std::optional<double> horizon_px{};  // height of the horizon in the photo; else up is told by the heads
   bool ground = true;                  // whether it stands on something that takes its shadow
+  std::optional<int> face{};  // of the estimate, in whose light the thing stands; else the face that is nearest to it
+  bool joint_light = false;   // in the one light of all faces, where there are several; `face` is of no matter then
   lighting::MainLightOptions main_lights{};  // those of the estimate
   Image matte{};  // the photo's size, one channel: people in front of far things; empty = the faces' crops tell
 

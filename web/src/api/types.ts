@@ -161,6 +161,8 @@ export interface InsertionRequest {
   height_m?: number;
   turn_deg?: number;
   ground?: boolean;
+  face?: number;
+  joint_light?: boolean;
   quality?: 'preview' | 'final';
 }
 

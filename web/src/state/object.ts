@@ -8,6 +8,7 @@ import type { DoneEstimate, Info, InsertionRequest, Material, ObjectModel } from
 import type { PhotoCamera } from '../light/camera.ts';
 import { placementAt, reshaped, sizeOf, type Placement, type Size } from '../light/placement.ts';
 import { useLoaded } from './loaded.ts';
+import type { Chosen } from './workbench.ts';
 
 export const ownMaterial = '';
 
@@ -67,7 +68,7 @@ export function materialOf(info: Info | undefined, name: string): Material | nul
   return info?.materials.find((material) => material.name === name) ?? null;
 }
 
-export function requestFor(object: PlacedObject, quality: 'preview' | 'final'): InsertionRequest {
+export function requestFor(object: PlacedObject, light: Chosen, quality: 'preview' | 'final'): InsertionRequest {
   const { placement } = object;
   return {
     object: object.name,
@@ -76,6 +77,7 @@ export function requestFor(object: PlacedObject, quality: 'preview' | 'final'): 
     distance_m: placement.distanceM,
     height_m: placement.heightM,
     turn_deg: placement.turnDeg,
+    ...(light === 'joint' ? { joint_light: true } : { face: light }),
     quality,
   };
 }

@@ -4,6 +4,7 @@ import type { DoneEstimate, Info } from '../api/types.ts';
 import { reach } from '../light/placement.ts';
 import { ownMaterial, type PlacedObject } from '../state/object.ts';
 import type { Rendering } from '../state/rendering.ts';
+import type { Chosen } from '../state/workbench.ts';
 import { capital, degrees, metres } from './format.ts';
 import { Alert } from './parts/Alert.tsx';
 import { Select } from './parts/Select.tsx';
@@ -13,12 +14,13 @@ import { RenderControl } from './RenderControl.tsx';
 interface Props {
   estimate: DoneEstimate;
   info: Info | undefined;
+  light: Chosen; // that it stands in
   object: PlacedObject;
   rendering: Rendering;
   trouble: string | undefined; // of the preview
 }
 
-export function ObjectPanel({ estimate, info, object, rendering, trouble }: Props) {
+export function ObjectPanel({ estimate, info, light, object, rendering, trouble }: Props) {
   const { placement, place } = object;
   const { distance_m: distance, height_m: height } = estimate.spot;
   const objects = (info?.objects ?? []).map((name) => ({ value: name, text: capital(name) }));
@@ -64,7 +66,7 @@ export function ObjectPanel({ estimate, info, object, rendering, trouble }: Prop
       <p class="fine" id="stage-help">
         Drag it, or scroll over it. Keys: arrows move it, + and − bring it nearer and farther, [ and ] turn it.
       </p>
-      <RenderControl estimate={estimate} object={object} rendering={rendering} />
+      <RenderControl estimate={estimate} light={light} object={object} rendering={rendering} />
     </section>
   );
 }

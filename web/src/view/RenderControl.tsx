@@ -6,6 +6,7 @@ import { addressOf } from '../api/client.ts';
 import type { DoneEstimate, Insertion } from '../api/types.ts';
 import { requestFor, type PlacedObject } from '../state/object.ts';
 import type { Rendering } from '../state/rendering.ts';
+import type { Chosen } from '../state/workbench.ts';
 import { fileSize, stem } from './format.ts';
 import { Alert } from './parts/Alert.tsx';
 import { Choice } from './parts/Choice.tsx';
@@ -13,6 +14,7 @@ import { JobProgress } from './parts/JobProgress.tsx';
 
 interface Props {
   estimate: DoneEstimate;
+  light: Chosen;
   object: PlacedObject;
   rendering: Rendering;
 }
@@ -24,7 +26,7 @@ const qualities = [
   { value: 'final', text: 'Final' },
 ] as const;
 
-export function RenderControl({ estimate, object, rendering }: Props) {
+export function RenderControl({ estimate, light, object, rendering }: Props) {
   const [quality, setQuality] = useState<Quality>('preview');
   return (
     <div class="render">
@@ -32,7 +34,9 @@ export function RenderControl({ estimate, object, rendering }: Props) {
         {rendering.job ? (
           <JobProgress job={rendering.job} label="Rendering" />
         ) : (
-          <p class="fine">{hintFor(estimate)}</p>
+          <p class="fine">
+            What you drag is a preview. Render traces the light for real, with the photo’s blur and grain.
+          </p>
         )}
         <Choice<Quality> label="Quality" options={qualities} value={quality} onChange={setQuality} />
         {rendering.job ? (
@@ -48,7 +52,7 @@ export function RenderControl({ estimate, object, rendering }: Props) {
               type="button"
               class="primary"
               disabled={!object.model}
-              onClick={() => void rendering.start(requestFor(object, quality))}
+              onClick={() => void rendering.start(requestFor(object, light, quality))}
             >
               Render
             </button>
@@ -59,11 +63,6 @@ export function RenderControl({ estimate, object, rendering }: Props) {
       {rendering.done && <Rendered insertion={rendering.done} name={`${stem(estimate.name)}-${object.name}`} />}
     </div>
   );
-}
-
-function hintFor({ faces }: DoneEstimate): string {
-  const hint = 'What you drag is a preview. Render traces the light for real, with the photo’s blur and grain';
-  return faces.length === 1 ? `${hint}.` : `${hint}, in the light of the face nearest to the object.`;
 }
 
 function Rendered({ insertion, name }: { insertion: Insertion; name: string }) {

@@ -27,7 +27,7 @@ export function Workbench({ estimate, info }: { estimate: DoneEstimate; info: In
   const subject = subjectOf(estimate, chosen);
 
   // What is changed is to be seen, and the rendered picture does not show it.
-  useEffect(() => setKind('preview'), [object.placement, object.name, object.material]);
+  useEffect(() => setKind('preview'), [object.placement, object.name, object.material, chosen]);
 
   return (
     <div class="bench">
@@ -48,6 +48,7 @@ export function Workbench({ estimate, info }: { estimate: DoneEstimate; info: In
         <ObjectPanel
           estimate={estimate}
           info={info}
+          light={subject.chosen}
           object={object}
           rendering={rendering}
           trouble={hasWebGl() ? stageTrouble : noWebGl}
