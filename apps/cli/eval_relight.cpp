@@ -1,6 +1,7 @@
 #include "eval_stages.h"
 #include "faceprobe/assets/object.h"
 #include "faceprobe/eval/relight_benchmark.h"
+#include "faceprobe/eval/sun_metrics.h"
 #include "faceprobe/io/atomic_file.h"
 #include "faceprobe/io/picture_file.h"
 #include "relight_methods.h"
@@ -22,6 +23,15 @@ void print_groups(const eval::ScoreTable& table, const std::string& title, const
                   const std::string& group, int decimals) {
   if (table.groups().contains(group))
     fmt::print("\n### {}\n\n{}", title, table.markdown_by_group(metric, group, decimals));
+}
+
+void print_suns(const eval::ScoreTable& table) {
+  const std::string all = eval::sun_markdown(table);
+  if (all.empty()) return;
+  fmt::print(
+      "\n### Sun: share of photos within N degrees, and the 75 % mark\n\nOf photos that one lamp dominates.\n\n{}", all);
+  if (const std::string outdoor = eval::sun_markdown(table, "scene", "outdoor"); !outdoor.empty())
+    fmt::print("\n### The same, outdoor scenes alone\n\n{}", outdoor);
 }
 
 }  // namespace
@@ -47,6 +57,7 @@ int eval_relight(const EvalOptions& options) {
   print(table, "Glossy object, RMSE of 255", "glossy", 1);
   print_groups(table, "The same by scene", "glossy", "scene", 1);
   print(table, "Main light, degrees, of photos that one lamp dominates", "main_light", 1);
+  print_suns(table);
   print(table, "Colour of all the light, degrees", "colour", 2);
   print_groups(table, "The same by skin tone", "colour", "tone", 2);
   print_groups(table, "Diffuse object by skin tone", "diffuse", "tone", 1);

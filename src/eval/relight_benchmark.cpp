@@ -5,10 +5,12 @@
 #include "faceprobe/core/error.h"
 #include "faceprobe/core/sh.h"
 #include "faceprobe/eval/light_metrics.h"
+#include "faceprobe/eval/sun_metrics.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace faceprobe::eval {
@@ -17,7 +19,8 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 std::map<std::string, double> all_metrics(const Eigen::MatrixX3f& truth, const Eigen::MatrixX3f& found,
-                                          const LitObject& object, const SphereGrid& grid, bool one_lamp) {
+                                          const LitObject& object, const SphereGrid& grid, bool one_lamp,
+                                          const std::optional<Sun>& sun) {
   using render::SphereMaterial;
   std::map<std::string, double> metrics;
   const bool there = found.rows() == grid.cell_count() && found.allFinite() && found.maxCoeff() > 0;
@@ -37,6 +40,12 @@ std::map<std::string, double> all_metrics(const Eigen::MatrixX3f& truth, const E
   metrics["nrmse_map_truth"] = map.over_truth_range;
   metrics["colour"] = there ? light_colour_error_deg(truth, found) : kNaN;
   if (one_lamp) metrics["main_light"] = there ? main_light_error_deg(truth, found, grid) : kNaN;
+  if (sun) {
+    const SunError off = sun_error(*sun, there ? sun_of(found, grid) : std::nullopt);
+    metrics["sun_centroid"] = off.angle_deg;
+    metrics["sun_azimuth"] = off.azimuth_deg;
+    metrics["sun_elevation"] = off.elevation_deg;
+  }
   return metrics;
 }
 
@@ -91,6 +100,7 @@ RelightScores measure_relighting(const synth::ShardReader& faces, const std::vec
     if (!photo.sample.lamps.empty()) return;  // a group's room: no one map lights it
     const Eigen::MatrixX3f truth = grid_from_env_map(photo.sample.environment, grid);
     const bool one_lamp = has_dominant_light(truth, grid);
+    const std::optional<Sun> sun = one_lamp ? sun_of(truth, grid) : std::nullopt;
     std::map<std::string, std::string> groups = {{"tone", photo.tone()},
                                                  {"light", one_lamp ? "one lamp" : "several or soft"}};
     if (options.scene) groups["scene"] = options.scene(photo.sample.map);
@@ -99,7 +109,8 @@ RelightScores measure_relighting(const synth::ShardReader& faces, const std::vec
     const PhotoInput input = photo.input();
     for (const LightMethod& method : methods) {
       const Eigen::MatrixX3f found = method.light({number, input, photo.sample, photo.view});
-      scores.table.add({method.name, std::to_string(number), groups, all_metrics(truth, found, object, grid, one_lamp)});
+      scores.table.add(
+          {method.name, std::to_string(number), groups, all_metrics(truth, found, object, grid, one_lamp, sun)});
       if (drawn) sheet.add(found);
     }
   });

@@ -61,6 +61,7 @@ class Writer {
       io::write_env_map(at, rest_of_environment(light, options), Orientation::kOpenExr, attributes);
     });
     text(folder / "light.usda", [&light, rest] { return usd_scene(light, rest); });
+    text(folder / "light.gltf", [&light, &options] { return gltf_scene(light, rest_of_environment(light, options)); });
     text(folder / "blender.py", [&light, rest] { return blender_script(light, rest); });
   }
   void run(int threads) {

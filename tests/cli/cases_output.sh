@@ -19,7 +19,7 @@ case_several_photos() {
   expect_files some "${wanted[@]}"
   # One light for both, beside their own or alone.
   expect_exit 0 estimate first.jpg second.jpg --same-light -o same "${quick[@]}"
-  expect_files same "${wanted[@]}" joint/environment.{exr,hdr,png} joint/{confidence.exr,environment_rest.exr,light.usda,blender.py}
+  expect_files same "${wanted[@]}" joint/environment.{exr,hdr,png} joint/{confidence.exr,environment_rest.exr,light.usda,light.gltf,blender.py}
   expect_exit 0 estimate first.jpg second.jpg --same-light -o same.exr "${quick[@]}"
   [ -s same.exr ] || fail "no joint map"
   expect_refused 2 "several photos" estimate first.jpg --same-light -o alone

@@ -52,6 +52,6 @@ expect_json() {
 }
 
 # The files that outputs.h lists for a photo with one face.
-one_face_files=(environment.exr environment.hdr environment.png confidence.exr environment_rest.exr light.usda blender.py
+one_face_files=(environment.exr environment.hdr environment.png confidence.exr environment_rest.exr light.usda light.gltf blender.py
   regions.png overview.png report.json)
 for layer in highlight diffuse albedo shading normals; do one_face_files+=("$layer.exr" "$layer.png"); done

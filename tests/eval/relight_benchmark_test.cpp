@@ -2,6 +2,7 @@
 
 #include "eval/small_faces.h"
 #include "faceprobe/core/error.h"
+#include "faceprobe/eval/sun_metrics.h"
 
 #include <gtest/gtest.h>
 
@@ -59,6 +60,21 @@ TEST(RelightBenchmark, TheMeanLightOfOneLightIsThatLight) {
   const Eigen::MatrixX3f one = grid_from_env_map(small.truth.environment, grid);
   EXPECT_LT((mean / mean.mean() - one / one.mean()).cwiseAbs().maxCoeff() / (one / one.mean()).maxCoeff(),
             2e-3);  // stored in half precision
+}
+
+TEST(RelightBenchmark, MeasuresWhereTheSunIs) {
+  const SmallFaces small;
+  const synth::ShardReader faces(small.path());
+  const LitObject sphere(sphere_mesh(16), {.size_px = 16});
+  const RelightScores scores =
+      measure_relighting(faces, {truth_method(), harmonics_method(5), ambient_method()}, sphere, {.samples = 3});
+  for (const char* metric : {"sun_centroid", "sun_azimuth", "sun_elevation"}) {
+    EXPECT_NEAR(scores.table.summary(metric, {.method = "truth"}).mean, 0, 1e-3) << metric;  // float rounding
+    EXPECT_EQ(scores.table.summary(metric, {.method = "ambient"}).missing, 3U) << metric;
+    // Harmonics have the lamp's middle where it is, but for the surround.
+    EXPECT_LT(scores.table.summary(metric, {.method = "truth in harmonics of order 5"}).mean, 5) << metric;
+  }
+  EXPECT_NE(sun_markdown(scores.table).find("| ambient | 3 (3 missing) | 0 %"), std::string::npos);
 }
 
 TEST(RelightBenchmark, RefusesOptionsThatMakeNoSense) {

@@ -302,7 +302,7 @@ TEST(Insertion, TheLightIsWhoseItIsToldToBe) {
   estimate.faces.push_back(face_at({0.5, 0, -kDepthM}, 400, 120));
   estimate.faces[0].environment = even_map(1);
   estimate.faces[1].environment = even_map(2);
-  estimate.joint = LightResult{};
+  estimate.joint.emplace();
   estimate.joint->environment = even_map(3);
   const auto level = [&](const InsertionOptions& options) {
     return scene_for(photo_of(estimate), estimate, marker(), options).environment.radiance()(0, 0, 0);

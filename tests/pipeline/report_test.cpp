@@ -9,7 +9,9 @@
 #include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <set>
+#include <utility>
 
 namespace faceprobe::pipeline {
 namespace {
@@ -30,8 +32,9 @@ std::set<std::string> files_under(const fs::path& folder) {
 
 // The list of include/faceprobe/pipeline/outputs.h for one face.
 std::set<std::string> files_of_a_face(bool layers = true) {
-  std::set<std::string> names = {"environment.exr",      "environment.hdr", "environment.png", "confidence.exr",
-                                 "environment_rest.exr", "light.usda",      "blender.py",      "overview.png"};
+  std::set<std::string> names = {"environment.exr", "environment.hdr",      "environment.png",
+                                 "confidence.exr",  "environment_rest.exr", "light.usda",
+                                 "light.gltf",      "blender.py",           "overview.png"};
   if (!layers) return names;
   names.insert("regions.png");
   for (const char* layer : {"highlight", "diffuse", "albedo", "shading", "normals"}) {
@@ -78,6 +81,60 @@ TEST(Report, HoldsTheDocumentedFields) {
   EXPECT_GT(report.at("timings").at("total_seconds").get<double>(), 0);
 }
 
+// An object of the report as docs/report.md names it, and one of its fields.
+using Field = std::pair<std::string, std::string>;
+
+// Objects go by the last name on the way to them.
+void add_fields(const json& value, const std::string& object, std::set<Field>& fields) {
+  if (value.is_array()) {
+    for (const json& item : value) add_fields(item, object, fields);
+  }
+  if (!value.is_object()) return;
+  for (const auto& [name, item] : value.items()) {
+    fields.emplace(object, name);
+    add_fields(item, name, fields);
+  }
+}
+
+std::vector<std::string> names_in(const std::string& text) {
+  static const std::regex name("`([^`]+)`");
+  std::vector<std::string> names;
+  for (std::sregex_iterator it(text.begin(), text.end(), name), end; it != end; ++it) names.push_back((*it)[1].str());
+  return names;
+}
+
+// Headings name the objects, the first column of their tables the fields.
+std::set<Field> documented_fields() {
+  const fs::path page = fs::path(__FILE__).parent_path().parent_path().parent_path() / "docs" / "report.md";
+  std::ifstream file(page);
+  EXPECT_TRUE(file.is_open()) << page;
+  std::set<Field> fields;
+  std::vector<std::string> objects;
+  for (std::string line; std::getline(file, line);) {
+    if (line.rfind("## ", 0) == 0) objects = names_in(line);
+    if (line.rfind("| `", 0) != 0) continue;
+    for (const std::string& name : names_in(line.substr(0, line.find('|', 1)))) {
+      for (const std::string& object : objects) fields.emplace(object, name);
+    }
+  }
+  return fields;
+}
+
+// Both ways: a field that is not documented, and a documented one that is not there.
+TEST(Report, EveryFieldStandsInTheDocumentation) {
+  Estimate estimate = portrait_estimate();
+  estimate.joint = estimate.faces[0];  // as two faces have it
+  const json report = json::parse(report_json(estimate, portrait(), EstimateOptions(), "portrait.jpg"));
+  std::set<Field> written;
+  add_fields(report, "report.json", written);
+  ASSERT_GT(written.size(), 60U);
+  const std::set<Field> documented = documented_fields();
+  for (const auto& [object, name] : written)
+    EXPECT_TRUE(documented.contains({object, name})) << object << '.' << name << " is not in docs/report.md";
+  for (const auto& [object, name] : documented)
+    EXPECT_TRUE(written.contains({object, name})) << object << '.' << name << " of docs/report.md is in no report";
+}
+
 TEST(Report, SourceNamesMayBeAnyBytes) {
   const std::string text =
       report_json(portrait_estimate(), portrait(), EstimateOptions(), "a \"quoted\"\n\xff name.jpg");
@@ -110,7 +167,7 @@ TEST(Outputs, SeveralFacesGetAFolderEach) {
   write_outputs(folder.path(), estimate, two, options, "two.jpg", output);
   std::set<std::string> wanted = {"report.json",           "joint/environment.exr", "joint/environment.hdr",
                                   "joint/environment.png", "joint/confidence.exr",  "joint/environment_rest.exr",
-                                  "joint/light.usda",      "joint/blender.py"};
+                                  "joint/light.usda",      "joint/light.gltf",      "joint/blender.py"};
   for (const std::string& name : files_of_a_face(false)) {
     for (const char* place : {"", "face_1/", "face_2/"}) wanted.insert(place + name);
   }

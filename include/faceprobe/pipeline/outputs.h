@@ -2,7 +2,7 @@
 // The folder that `faceprobe estimate` leaves. One face: all files in the folder itself. Several: face_1 .. face_N from left to right
 // with the same files, and joint/ with the maps of all of them; the largest face's maps and overview are also at the top.
 //
-//   environment.exr .hdr .png   confidence.exr   environment_rest.exr light.usda blender.py (scene_files.h)
+//   environment.exr .hdr .png   confidence.exr   environment_rest.exr light.usda light.gltf blender.py (scene_files.h)
 //   highlight|diffuse|albedo|shading|normals .exr .png   regions.png
 //   overview.png   report.json (top folder only)
 

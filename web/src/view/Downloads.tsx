@@ -15,6 +15,7 @@ const wanted: Entry[] = [
   { path: 'environment.png', text: 'Light map, PNG' },
   { path: 'blender.py', text: 'Blender script' },
   { path: 'light.usda', text: 'USD scene' },
+  { path: 'light.gltf', text: 'glTF scene' },
   { path: 'room.gltf', text: 'Room, glTF' },
   { path: 'report.json', text: 'Report, JSON' },
 ];

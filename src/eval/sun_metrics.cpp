@@ -1,0 +1,205 @@
+#include "faceprobe/eval/sun_metrics.h"
+
+#include "faceprobe/core/angles.h"
+#include "faceprobe/core/random.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+namespace faceprobe::eval {
+namespace {
+
+constexpr double kNoAngle = std::numeric_limits<double>::quiet_NaN();
+constexpr double kFarthest_deg = 180;
+// Nearer to the vertical than this an azimuth says nothing.
+constexpr double kNoAzimuth_deg = 5;
+// Directions that cancel out like this have no middle.
+constexpr double kLeastConcentration = 0.01;
+
+struct Patch {
+  Eigen::Vector3d direction;
+  double luminance = 0;
+  double solid_angle_sr = 0;
+};
+
+double luminance_of_rgb(double r, double g, double b) { return 0.2126 * r + 0.7152 * g + 0.0722 * b; }
+
+// `patches` by falling luminance. The luminance that the bright area has to exceed.
+double border(const std::vector<Patch>& patches, double area_sr) {
+  double above = 0;
+  double level = patches.back().luminance;
+  for (const Patch& patch : patches) {
+    level = patch.luminance;
+    if (above + 1e-9 >= area_sr) break;
+    above += patch.solid_angle_sr;
+  }
+  if (level < patches.front().luminance) return level;
+  // As much as that is equally bright and nothing is brighter: all of it is the area.
+  const auto next =
+      std::find_if(patches.begin(), patches.end(), [level](const Patch& patch) { return patch.luminance < level; });
+  return next == patches.end() ? level : next->luminance;
+}
+
+std::optional<Sun> find_sun(std::vector<Patch> patches, const SunOptions& options) {
+  if (const std::string problem = options.validate(); !problem.empty()) throw std::invalid_argument(problem);
+  double energy = 0;
+  double sphere = 0;
+  for (const Patch& patch : patches) {
+    if (!std::isfinite(patch.luminance)) throw std::invalid_argument("The sun of a map needs values that are numbers.");
+    energy += patch.luminance * patch.solid_angle_sr;
+    sphere += patch.solid_angle_sr;
+  }
+  if (patches.empty() || !(energy > 0)) return std::nullopt;
+  std::stable_sort(patches.begin(), patches.end(),
+                   [](const Patch& a, const Patch& b) { return a.luminance > b.luminance; });
+  if (patches.front().luminance < options.least_contrast * energy / sphere) return std::nullopt;
+  const double level = border(patches, options.share * sphere);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double total = 0;
+  Sun sun;
+  for (const Patch& patch : patches) {
+    if (!(patch.luminance > level)) break;
+    const double weight = patch.luminance * patch.solid_angle_sr;
+    sum += weight * patch.direction;
+    total += weight;
+    sun.solid_angle_sr += patch.solid_angle_sr;
+  }
+  if (!(total > 0)) return std::nullopt;
+  sun.concentration = sum.norm() / total;
+  if (sun.concentration < kLeastConcentration) return std::nullopt;
+  sun.direction = sum.normalized();
+  return sun;
+}
+
+double share_within(std::span<const double> sorted, double angle) {
+  const auto after = std::upper_bound(sorted.begin(), sorted.end(), angle);
+  return static_cast<double>(after - sorted.begin()) / static_cast<double>(sorted.size());
+}
+
+// 95 % of the marks of lists of the same length, drawn with replacement.
+std::pair<double, double> mark_interval(std::span<const double> sorted, const Bootstrap& bootstrap) {
+  Random random({bootstrap.seed});
+  const int count = static_cast<int>(sorted.size());
+  std::vector<double> marks(static_cast<std::size_t>(bootstrap.resamples));
+  std::vector<double> drawn(sorted.size());
+  for (double& mark : marks) {
+    for (double& value : drawn) value = sorted[static_cast<std::size_t>(random.below(count))];
+    std::sort(drawn.begin(), drawn.end());
+    mark = quantile_of_sorted(drawn, SunCurve::kMark);
+  }
+  std::sort(marks.begin(), marks.end());
+  return {quantile_of_sorted(marks, 0.025), quantile_of_sorted(marks, 0.975)};
+}
+
+std::string with_decimals(double value, int decimals) {
+  if (!std::isfinite(value)) return "-";
+  char text[32];
+  std::snprintf(text, sizeof text, "%.*f", decimals, value);
+  return text;
+}
+
+std::vector<double> known_values(const ScoreTable& table, const std::string& metric, const std::string& method,
+                                 const std::string& group, const std::string& label) {
+  std::vector<double> values;
+  for (const ScoreRow& row : table.rows()) {
+    const auto value = row.metrics.find(metric);
+    if (row.method != method || value == row.metrics.end()) continue;
+    if (!group.empty()) {
+      const auto found = row.groups.find(group);
+      if (found == row.groups.end() || found->second != label) continue;
+    }
+    values.push_back(value->second);
+  }
+  return values;
+}
+
+}  // namespace
+
+std::string SunOptions::validate() const {
+  if (!(share > 0 && share < 1)) return "share must lie in (0, 1).";
+  if (!(least_contrast > 1 && least_contrast < 1e6)) return "least_contrast must be above 1.";
+  return {};
+}
+
+std::optional<Sun> sun_of(const EnvMap& map, const SunOptions& options) {
+  std::vector<Patch> patches;
+  for (int y = 0; y < map.height(); ++y) {
+    const double solid_angle = texel_solid_angle(y, map.width(), map.height());
+    for (int x = 0; x < map.width(); ++x) {
+      const float* p = map.radiance().pixel(x, y);
+      patches.push_back({map.direction(x, y).cast<double>(), luminance_of_rgb(p[0], p[1], p[2]), solid_angle});
+    }
+  }
+  return find_sun(std::move(patches), options);
+}
+
+std::optional<Sun> sun_of(const Eigen::MatrixX3f& radiance, const SphereGrid& grid, const SunOptions& options) {
+  if (radiance.rows() != grid.cell_count())
+    throw std::invalid_argument("The sun of a light needs one radiance per cell.");
+  std::vector<Patch> patches;
+  for (int j = 0; j < grid.cell_count(); ++j) {
+    patches.push_back({grid.direction(j).cast<double>(),
+                       luminance_of_rgb(radiance(j, 0), radiance(j, 1), radiance(j, 2)), grid.cell_solid_angle()});
+  }
+  return find_sun(std::move(patches), options);
+}
+
+SunError sun_error(const Sun& truth, const std::optional<Sun>& estimate) {
+  if (!estimate) return {kNoAngle, kNoAngle, kNoAngle};
+  const double right = elevation_deg(truth.direction);
+  const double turn = std::abs(azimuth_deg(truth.direction) - azimuth_deg(estimate->direction));
+  return {angle_between_deg(truth.direction, estimate->direction),
+          std::abs(right) > 90 - kNoAzimuth_deg ? kNoAngle : std::min(turn, 360 - turn),
+          std::abs(right - elevation_deg(estimate->direction))};
+}
+
+SunCurve sun_curve(std::span<const double> errors_deg, const Bootstrap& bootstrap) {
+  if (bootstrap.resamples < 1) throw std::invalid_argument("sun_curve: resamples must be at least 1");
+  SunCurve curve;
+  curve.count = errors_deg.size();
+  std::vector<double> sorted;
+  for (const double error : errors_deg) {
+    if (!std::isfinite(error)) ++curve.missing;
+    sorted.push_back(std::isfinite(error) ? error : kFarthest_deg);
+  }
+  std::sort(sorted.begin(), sorted.end());
+  for (std::size_t i = 0; i < curve.within.size(); ++i)
+    curve.within[i] = sorted.empty() ? kNoAngle : share_within(sorted, SunCurve::kAngles_deg[i]);
+  curve.mark_deg = quantile_of_sorted(sorted, SunCurve::kMark);
+  const auto [low, high] = sorted.size() < 2 ? std::pair(kNoAngle, kNoAngle) : mark_interval(sorted, bootstrap);
+  curve.mark_low_deg = low;
+  curve.mark_high_deg = high;
+  return curve;
+}
+
+std::string sun_markdown(const ScoreTable& table, const std::string& group, const std::string& label) {
+  std::string head = "| sun_centroid | n |";
+  std::string rule = "|---|---:|";
+  for (const int angle : SunCurve::kAngles_deg) {
+    head += " <= " + std::to_string(angle) + " |";
+    rule += "---:|";
+  }
+  std::string lines;
+  for (const std::string& method : table.methods()) {
+    const std::vector<double> errors = known_values(table, "sun_centroid", method, group, label);
+    if (errors.empty()) continue;
+    const SunCurve curve = sun_curve(errors);
+    const auto median = [&](const std::string& metric) {
+      return with_decimals(summarize(known_values(table, metric, method, group, label), {.resamples = 1}).median, 1);
+    };
+    lines += "| " + method + " | " + std::to_string(curve.count);
+    lines += curve.missing > 0 ? " (" + std::to_string(curve.missing) + " missing) |" : " |";
+    for (const double share : curve.within) lines += ' ' + with_decimals(100 * share, 0) + " % |";
+    lines += ' ' + with_decimals(curve.mark_deg, 1) + " [" + with_decimals(curve.mark_low_deg, 1) + ", " +
+             with_decimals(curve.mark_high_deg, 1) + "] | " + median("sun_azimuth") + " | " + median("sun_elevation") +
+             " |\n";
+  }
+  if (lines.empty()) return {};
+  return head + " 75 % mark [95 %] | azimuth, median | elevation, median |\n" + rule + "---:|---:|---:|\n" + lines;
+}
+
+}  // namespace faceprobe::eval
