@@ -2,9 +2,13 @@
 
 #include "faceprobe/core/error.h"
 #include "faceprobe/io/photo.h"
+#include "faceprobe/lighting/face_features.h"
 #include "faceprobe/lighting/harmonics.h"
+#include "faceprobe/lighting/lombardi_nishino.h"
+#include "faceprobe/lighting/radiance_transfer.h"
 #include "faceprobe/pipeline/estimate.h"
 #include "faceprobe/pipeline/observe.h"
+#include "faceprobe/synth/traced.h"
 
 #include <optional>
 #include <utility>
@@ -178,6 +182,26 @@ eval::LightMethod by_harmonics(const SharedPtr& shared, const std::shared_ptr<Sp
   });
 }
 
+// Learns from what estimates read from the training data's photos (`faceprobe trace`); nothing where that is not there.
+std::optional<eval::LightMethod> by_learnt_transfer(const std::filesystem::path& training, const SharedPtr& shared,
+                                                    const std::shared_ptr<SphereGrid>& grid) {
+  lighting::RadianceTransferLearner learner;
+  for (const synth::TracedPhoto& photo : synth::read_traced(training)) learner.add(photo.features, photo.light);
+  if (learner.examples() == 0) return std::nullopt;
+  return other_solver("knorr and kurz", shared, [transfer = learner.learn(), grid](const lighting::Observations& o) {
+    return lighting::radiance_of_harmonics(transfer.solve(lighting::face_features(o)), *grid);
+  });
+}
+
+eval::LightMethod by_joint_estimate(const SharedPtr& shared, const std::shared_ptr<SphereGrid>& grid) {
+  lighting::JointOptions options;
+  options.threads = shared->options().threads;
+  return other_solver("lombardi and nishino, lite", shared, [options, grid](const lighting::Observations& o) {
+    const lighting::JointEstimate found = lighting::solve_lombardi_nishino(o, options);
+    return grid_from_grid(found.radiance, SphereGrid(found.nside), *grid);
+  });
+}
+
 }  // namespace
 
 std::vector<eval::LightMethod> insert_methods(const RelightRows& rows) {
@@ -207,6 +231,11 @@ std::vector<eval::LightMethod> relight_methods(const RelightRows& rows) {
     methods.push_back(partly_known("layers known", shared, false, true));
   }
   methods.push_back(by_harmonics(shared, grid));
+  if (!rows.training.empty()) {
+    if (std::optional<eval::LightMethod> learnt = by_learnt_transfer(rows.training, shared, grid))
+      methods.push_back(std::move(*learnt));
+  }
+  methods.push_back(by_joint_estimate(shared, grid));
   methods.push_back(other_solver("lamp at the brightest highlight", shared,
                                  [grid](const lighting::Observations& o) { return brightest_spot(o, *grid); }));
   if (!rows.training.empty()) {

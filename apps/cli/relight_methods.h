@@ -11,10 +11,11 @@
 namespace faceprobe::cli {
 
 struct RelightRows {
-  std::filesystem::path weights{};   // of the network; empty = those that come with the program
-  std::filesystem::path prior{};     // of the light prior; the same
-  std::filesystem::path training{};  // data whose mean light is a row; empty = no such row
-  bool ablation = false;             // rows with a part of the estimate replaced by the truth
+  std::filesystem::path weights{};  // of the network; empty = those that come with the program
+  std::filesystem::path prior{};    // of the light prior; the same
+  std::filesystem::path
+      training{};  // data whose mean light is a row, and which Knorr & Kurz learn from where it is traced; empty = no such rows
+  bool ablation = false;  // rows with a part of the estimate replaced by the truth
   int nside = 16;
   int threads = 0;
 };
