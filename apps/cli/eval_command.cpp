@@ -64,7 +64,9 @@ void add_eval(CLI::App& program, Action& action) {
                    "for relight: CSV that names the maps indoor or outdoor; default: they are not told apart")
       ->type_name("FILE");
   command
-      ->add_option("--training", options->training, "for relight: data whose mean light is a row; default: no such row")
+      ->add_option("--training", options->training,
+                   "for relight: data whose mean light is a row, and which Knorr and Kurz learn from where it is "
+                   "traced; default: no such rows")
       ->type_name("DIR");
   command
       ->add_option(
