@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <utility>
@@ -73,7 +74,8 @@ void send_listed(Response& response, const fs::path& folder, const std::vector<S
   send_file(response, folder / path, path);
 }
 
-void write_upload(const fs::path& file, const httplib::ContentReader& read) {
+void write_upload(const fs::path& file, const httplib::ContentReader& read, const Response& response,
+                  std::int64_t most_bytes) {
   std::ofstream out(file, std::ios::binary);
   bool written = true;
   std::size_t bytes = 0;
@@ -83,21 +85,25 @@ void write_upload(const fs::path& file, const httplib::ContentReader& read) {
     return written;
   });
   out.close();
+  if (response.status == 413) throw too_large(most_bytes);  // so said the HTTP library, which has read on to its end
   if (!written || !out)
     throw Error(ExitCode::kOutput, "The photo could not be stored: the disk is full, or not writable.");
   if (!received) throw Refusal(FailureKind::kUsage, "The photo did not arrive whole; send it again.");
   if (bytes == 0) throw Refusal(FailureKind::kUsage, "The request holds no photo; send the bytes of a file.");
 }
 
-std::string read_text(const httplib::ContentReader& read) {
+std::string read_text(const httplib::ContentReader& read, const Response& response) {
   constexpr std::size_t kLongest = 1 << 16;
   std::string text;
+  std::size_t bytes = 0;
   const bool received = read([&](const char* data, std::size_t size) {
-    if (text.size() + size > kLongest) return false;
-    text.append(data, size);
+    bytes += size;
+    if (bytes <= kLongest) text.append(data, size);
     return true;
   });
-  if (!received) throw Refusal(FailureKind::kTooLarge, "A request in JSON may have 65536 bytes at most.");
+  if (bytes > kLongest || response.status == 413)
+    throw Refusal(FailureKind::kTooLarge, "A request in JSON may have 65536 bytes at most.");
+  if (!received) throw Refusal(FailureKind::kUsage, "The request did not arrive whole; send it again.");
   return text;
 }
 
@@ -107,8 +113,10 @@ void accept(Response& response, const std::string& address, const Json& json) {
 }
 
 std::string type_of(const Request& request) {
-  const std::string type = request.get_header_value("Content-Type");
-  return type.substr(0, type.find(';'));
+  std::string type = request.get_header_value("Content-Type");
+  type.resize(std::min(type.size(), type.find_first_of("; \t")));
+  std::ranges::transform(type, type.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return type;
 }
 
 void add_estimate_routes(httplib::Server& http, Studio& studio, const ServerOptions& options,
@@ -132,12 +140,13 @@ void add_estimate_routes(httplib::Server& http, Studio& studio, const ServerOpti
     const std::string type = type_of(request);
     const std::string name = shown_name(request.get_param_value("name"));
     if (type == "application/json") {
-      const std::string sample = read_sample_request(read_text(read));
+      const std::string sample = read_sample_request(read_text(read, response));
       const fs::path file = sample_file(options, sample);
       record = studio.add_photo(request.has_param("name") ? name : file.filename().string(),
                                 [&](const fs::path& photo) { fs::copy_file(file, photo); });
     } else if (type == "application/octet-stream" || type.starts_with("image/")) {
-      record = studio.add_photo(name, [&](const fs::path& photo) { write_upload(photo, read); });
+      record = studio.add_photo(
+          name, [&](const fs::path& photo) { write_upload(photo, read, response, options.max_upload_bytes); });
     } else {
       throw Refusal(FailureKind::kWrongType,
                     "A photo is sent as application/octet-stream, or the name of a sample as "
@@ -169,15 +178,16 @@ void add_estimate_routes(httplib::Server& http, Studio& studio, const ServerOpti
   });
   http.Get(one + R"(/archive\.zip)", [done](const Request& request, Response& response) {
     const auto record = done(request);
-    response.set_header("Content-Disposition", "attachment; filename=\"faceprobe.zip\"");
     response.set_content(zip_of(record->output(), record->files, "faceprobe"), "application/zip");
+    response.set_header("Content-Disposition", "attachment; filename=\"faceprobe.zip\"");
   });
-  http.Post(one + "/insertions", [&studio](const Request& request, Response& response) {
-    if (type_of(request) != "application/json")
-      throw Refusal(FailureKind::kWrongType, "An insertion is asked for in application/json.");
-    const auto record = studio.add_insertion(request.matches[1], read_insertion_request(request.body));
-    accept(response, "/insertions/" + record->id, insertion_json(*record));
-  });
+  http.Post(
+      one + "/insertions", [&studio](const Request& request, Response& response, const httplib::ContentReader& read) {
+        if (type_of(request) != "application/json")
+          throw Refusal(FailureKind::kWrongType, "An insertion is asked for in application/json.");
+        const auto record = studio.add_insertion(request.matches[1], read_insertion_request(read_text(read, response)));
+        accept(response, "/insertions/" + record->id, insertion_json(*record));
+      });
 }
 
 void add_insertion_routes(httplib::Server& http, Studio& studio, const std::atomic<bool>& closing) {
@@ -205,13 +215,18 @@ void add_insertion_routes(httplib::Server& http, Studio& studio, const std::atom
 }  // namespace
 
 void answer(Response& response, const Json& json, int status) {
-  response.status = status;
+  if (status != 200) response.status = status;  // else 206 where a range was asked for
   response.set_header("Cache-Control", "no-store");
   response.set_content(json.dump(-1, ' ', false, Json::error_handler_t::replace), "application/json");
 }
 
 void answer(Response& response, const Failure& failure) {
   answer(response, failure_json(failure), http_status(failure.kind));
+}
+
+Refusal too_large(std::int64_t most_bytes) {
+  return {FailureKind::kTooLarge,
+          "The photo is larger than the " + std::to_string(most_bytes >> 20) + " MB that this server takes."};
 }
 
 void add_routes(httplib::Server& http, Studio& studio, const ServerOptions& options, const std::atomic<bool>& closing) {

@@ -14,5 +14,6 @@ void add_routes(httplib::Server& http, Studio& studio, const ServerOptions& opti
 
 void answer(httplib::Response& response, const Json& json, int status = 200);
 void answer(httplib::Response& response, const Failure& failure);
+Refusal too_large(std::int64_t most_bytes);  // of a photo
 
 }  // namespace faceprobe::serve

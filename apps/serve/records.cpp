@@ -11,14 +11,17 @@
 namespace faceprobe::serve {
 namespace {
 
+// What had to go, which the caller lets go of when the lock is off: its folder goes with it.
 template <class Record>
-void make_room(std::deque<std::shared_ptr<Record>>& records, std::size_t most) {
-  if (records.size() < most) return;
+std::shared_ptr<Record> make_room(std::deque<std::shared_ptr<Record>>& records, std::size_t most) {
+  if (records.size() < most) return nullptr;
   const auto old = std::ranges::find_if(records, [](const auto& record) { return record->job.state().ended(); });
   if (old == records.end())
     throw Refusal(FailureKind::kBusy,
                   "There is as much work waiting as this server takes; try again when some is done.");
+  std::shared_ptr<Record> gone = *old;
   records.erase(old);
+  return gone;
 }
 
 template <class Record>
@@ -68,14 +71,19 @@ Records::Records(std::size_t most_estimates, std::size_t most_insertions)
     : most_estimates_(most_estimates), most_insertions_(most_insertions) {}
 
 void Records::add(const std::shared_ptr<EstimateRecord>& estimate) {
+  std::shared_ptr<EstimateRecord> gone;
+  std::vector<std::shared_ptr<InsertionRecord>> with_it;
   const std::lock_guard lock(mutex_);
-  make_room(estimates_, most_estimates_);
+  gone = make_room(estimates_, most_estimates_);
+  if (gone) with_it = take_insertions_of(*gone);
   estimates_.push_back(estimate);
 }
 
 void Records::add(const std::shared_ptr<InsertionRecord>& insertion) {
+  std::shared_ptr<InsertionRecord> gone;
   const std::lock_guard lock(mutex_);
-  make_room(insertions_, most_insertions_);
+  find(estimates_, insertion->estimate->id, "estimate");  // removed meanwhile?
+  gone = make_room(insertions_, most_insertions_);
   insertions_.push_back(insertion);
 }
 
@@ -94,21 +102,31 @@ std::vector<std::shared_ptr<EstimateRecord>> Records::estimates() const {
   return {estimates_.rbegin(), estimates_.rend()};
 }
 
-void Records::remove_estimate(const std::string& id) {
-  const std::lock_guard lock(mutex_);
-  const std::shared_ptr<EstimateRecord> gone = find(estimates_, id, "estimate");
-  gone->job.stop();
-  std::erase(estimates_, gone);
+std::vector<std::shared_ptr<InsertionRecord>> Records::take_insertions_of(const EstimateRecord& estimate) {
+  std::vector<std::shared_ptr<InsertionRecord>> taken;
   std::erase_if(insertions_, [&](const auto& insertion) {
-    if (insertion->estimate != gone) return false;
+    if (insertion->estimate.get() != &estimate) return false;
     insertion->job.stop();
+    taken.push_back(insertion);
     return true;
   });
+  return taken;
+}
+
+void Records::remove_estimate(const std::string& id) {
+  std::shared_ptr<EstimateRecord> gone;
+  std::vector<std::shared_ptr<InsertionRecord>> with_it;
+  const std::lock_guard lock(mutex_);
+  gone = find(estimates_, id, "estimate");
+  gone->job.stop();
+  std::erase(estimates_, gone);
+  with_it = take_insertions_of(*gone);
 }
 
 void Records::remove_insertion(const std::string& id) {
+  std::shared_ptr<InsertionRecord> gone;
   const std::lock_guard lock(mutex_);
-  const std::shared_ptr<InsertionRecord> gone = find(insertions_, id, "insertion");
+  gone = find(insertions_, id, "insertion");
   gone->job.stop();
   std::erase(insertions_, gone);
 }

@@ -75,9 +75,9 @@ class Records {
  public:
   explicit Records(std::size_t most_estimates, std::size_t most_insertions = 16);
 
-  // The oldest that has ended goes where there are too many. Throws Refusal(kBusy) when none has.
+  // The oldest that has ended goes where there are too many, an estimate with its insertions. Throws Refusal(kBusy) when none has.
   void add(const std::shared_ptr<EstimateRecord>& estimate);
-  void add(const std::shared_ptr<InsertionRecord>& insertion);
+  void add(const std::shared_ptr<InsertionRecord>& insertion);  // and Refusal(kNotFound) when its estimate is no more
   // Throw Refusal(kNotFound).
   std::shared_ptr<EstimateRecord> estimate(const std::string& id) const;
   std::shared_ptr<InsertionRecord> insertion(const std::string& id) const;
@@ -88,6 +88,9 @@ class Records {
   void stop_all();
 
  private:
+  // Stopped and out of the list. Under the lock.
+  std::vector<std::shared_ptr<InsertionRecord>> take_insertions_of(const EstimateRecord& estimate);
+
   mutable std::mutex mutex_;
   std::size_t most_estimates_, most_insertions_;
   std::deque<std::shared_ptr<EstimateRecord>> estimates_;    // oldest first

@@ -6,6 +6,8 @@
 
 #include <sys/socket.h>
 #include <atomic>
+#include <chrono>
+#include <thread>
 #include <utility>
 
 namespace faceprobe::serve {
@@ -13,6 +15,7 @@ namespace {
 
 constexpr std::size_t kThreads = 24;  // each listener of events holds one
 constexpr const char* kHost = "127.0.0.1";
+constexpr std::size_t kLongestPath = 1000;  // patterns are matched by recursion, some hundred bytes of stack a character
 constexpr const char* kNoPage =
     "<!doctype html><html lang=\"en\"><title>Faceprobe</title><p>The page was not built; the API is at "
     "<a href=\"/api/v1/info\">/api/v1</a>.</p></html>";
@@ -25,13 +28,19 @@ void refuse(httplib::Response& response, FailureKind kind, std::string sentence)
 void explain(const httplib::Request& request, httplib::Response& response, std::int64_t most_bytes) {
   if (!response.body.empty()) return;
   if (response.status == 413) {
-    refuse(response, FailureKind::kTooLarge,
-           "The photo is larger than the " + std::to_string(most_bytes >> 20) + " MB that this server takes.");
+    answer(response, too_large(most_bytes).failure());
   } else if (response.status == 404) {
     refuse(response, FailureKind::kNotFound, "There is nothing at " + request.path + "; see /openapi.json.");
   } else {
     refuse(response, FailureKind::kUsage, "The request could not be read.");
   }
+}
+
+// Of a request whose end only its sender knows. The HTTP library limits what says its length; chunks and what it would unpack it does not.
+bool is_endless(const httplib::Request& request) {
+  if (request.has_header("Transfer-Encoding") || request.has_header("Content-Encoding")) return true;
+  const bool has_content = request.method == "POST" || request.method == "PUT" || request.method == "PATCH";
+  return has_content && !request.has_header("Content-Length");
 }
 
 }  // namespace
@@ -53,6 +62,10 @@ struct Server::Impl {
     http.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
     http.set_payload_max_length(static_cast<std::size_t>(options.max_upload_bytes));
     http.set_tcp_nodelay(true);
+    // One request a connection: what is left of one that was refused before it was read would be taken for the next, and a stranger's page
+    // could write that one as it likes, with our own Host and without its Origin.
+    http.set_keep_alive_max_count(1);
+    http.set_keep_alive_timeout(1);  // browsers open connections before they need them; the end waits for these
     http.set_default_headers({{"Content-Security-Policy", kContentSecurityPolicy},
                               {"Cross-Origin-Opener-Policy", "same-origin"},
                               {"Cross-Origin-Resource-Policy", "same-origin"},
@@ -61,8 +74,16 @@ struct Server::Impl {
     http.set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
       const std::string fault =
           fault_of_caller(request.get_header_value("Host"), request.get_header_value("Origin"), port);
-      if (fault.empty()) return httplib::Server::HandlerResponse::Unhandled;
-      refuse(response, FailureKind::kForbidden, fault);
+      if (!fault.empty()) {
+        refuse(response, FailureKind::kForbidden, fault);
+      } else if (is_endless(request)) {
+        refuse(response, FailureKind::kUsage,
+               "A request must tell its length; send Content-Length, and neither chunks nor a Content-Encoding.");
+      } else if (request.path.size() > kLongestPath) {
+        refuse(response, FailureKind::kNotFound, "There is nothing at a path as long as this one.");
+      } else {
+        return httplib::Server::HandlerResponse::Unhandled;
+      }
       return httplib::Server::HandlerResponse::Handled;
     });
     http.set_exception_handler([](const httplib::Request&, httplib::Response& response,
@@ -94,7 +115,7 @@ struct Server::Impl {
   }
 
   ServerOptions options;
-  std::atomic<bool> closing = false;
+  std::atomic<bool> closing = false, begun = false, ended = false;
   int port = -1;
   Studio studio;
   httplib::Server http;  // last: it answers from the others
@@ -110,12 +131,18 @@ Server::~Server() = default;
 int Server::port() const { return impl_->port; }
 
 void Server::run() {
-  if (!impl_->http.listen_after_bind()) throw Error(ExitCode::kUnexpected, "The server stopped listening by itself.");
+  impl_->begun = true;
+  const bool fine = impl_->closing || impl_->http.listen_after_bind();
+  impl_->ended = true;
+  if (!fine) throw Error(ExitCode::kUnexpected, "The server stopped listening by itself.");
 }
 
 void Server::stop() {
   impl_->closing = true;
   impl_->studio.records().stop_all();
+  // The HTTP library forgets that it was to stop when it has not begun yet.
+  while (impl_->begun && !impl_->ended && !impl_->http.is_running())
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
   impl_->http.stop();
 }
 

@@ -15,6 +15,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <system_error>
 #include <utility>
 
 namespace faceprobe::serve {
@@ -51,6 +52,19 @@ void run_job(Job& job, const Task& task) {
   }
 }
 
+// Of a file whose name is ours: the person at the page knows the photo by another, and our folders are nobody's business.
+io::Photo loaded(const EstimateRecord& record, const io::Limits& limits) {
+  const std::string file = record.photo_file().string();
+  try {
+    return io::load_photo(file, limits);
+  } catch (const Error& error) {
+    std::string sentence = error.what();
+    if (const std::size_t at = sentence.find(file); at != std::string::npos)
+      sentence.replace(at, file.size(), "'" + record.name + "'");
+    throw Error(error.code(), sentence);
+  }
+}
+
 ByteImage shown(const Image& linear) {
   const double scale = std::min(1.0, static_cast<double>(kShownPx) / std::max(linear.width(), linear.height()));
   if (scale == 1) return encode_srgb(linear);
@@ -68,7 +82,7 @@ struct Studio::Bench {
   const io::Photo& photo_of(const EstimateRecord& record, const io::Limits& limits) {
     if (!photo || photo_id != record.id) {
       photo.reset();
-      photo = io::load_photo(record.photo_file(), limits);
+      photo = loaded(record, limits);
       photo_id = record.id;
     }
     return *photo;
@@ -128,18 +142,28 @@ Studio::~Studio() { records_.stop_all(); }
 std::shared_ptr<EstimateRecord> Studio::add_photo(const std::string& name,
                                                   const std::function<void(const std::filesystem::path&)>& fill) {
   auto record = std::make_shared<EstimateRecord>(new_id(), name, options_.folder, options_.keep);
-  fill(record->photo_file());
-  records_.add(record);
-  const bool taken =
-      worker_.submit([this, record] { run_job(record->job, [&] { bench_->estimate(*record, options_.limits); }); });
-  if (taken) return record;
-  records_.remove_estimate(record->id);
-  throw Refusal(FailureKind::kBusy, "Too many photos are waiting; try again when some are done.");
+  try {
+    fill(record->photo_file());
+    records_.add(record);
+    const bool taken =
+        worker_.submit([this, record] { run_job(record->job, [&] { bench_->estimate(*record, options_.limits); }); });
+    if (taken) return record;
+    records_.remove_estimate(record->id);
+    throw Refusal(FailureKind::kBusy, "Too many photos are waiting; try again when some are done.");
+  } catch (...) {
+    // Not even where results are kept.
+    std::error_code ignored;
+    std::filesystem::remove_all(record->home.path(), ignored);
+    throw;
+  }
 }
 
 std::shared_ptr<InsertionRecord> Studio::add_insertion(const std::string& estimate, const InsertionRequest& request) {
   const std::shared_ptr<EstimateRecord> of = records_.estimate(estimate);
-  if (of->job.state().phase != JobPhase::kDone)
+  const JobPhase phase = of->job.state().phase;
+  if (phase == JobPhase::kFailed)
+    throw Refusal(FailureKind::kNotReady, "The light of this photo could not be found; send another photo.");
+  if (phase != JobPhase::kDone)
     throw Refusal(FailureKind::kNotReady, "The light of this photo is not known yet; wait until its estimate is done.");
   if (const std::string fault = request.where.validate(); !fault.empty()) throw Error(ExitCode::kUsage, fault);
   auto record = std::make_shared<InsertionRecord>(new_id(), of);
