@@ -3,7 +3,7 @@
 case_estimate_folder() {
   expect_exit 0 estimate "$photo" -o "not/there yet" --timings
   expect_files "not/there yet" "${one_face_files[@]}"
-  expect_stderr "wrote 20 files"
+  expect_stderr "wrote 21 files"
   expect_stderr "find faces"  # of --timings
   [ ! -s "$work/stdout" ] || fail "without --json nothing is printed"
   local report="not/there yet/report.json"
