@@ -4,7 +4,7 @@
 # network and without root. All messages go to stderr.
 #
 #   scripts/setup.sh           what building, testing and the demo need
-#   scripts/setup.sh --dev     also clang, clang-format, clang-tidy, doxygen and chromium
+#   scripts/setup.sh --dev     also clang, clang-format, clang-tidy and doxygen
 #   scripts/setup.sh --force   replace the files in .deps even when they look right
 set -euo pipefail
 
@@ -19,7 +19,7 @@ debian_packages=(
   libcpp-httplib-dev nlohmann-json3-dev libcli11-dev libspdlog-dev libnanoflann-dev libgtest-dev
   python3-dev python3-numpy pybind11-dev
 )
-developer_packages=(clang clang-format clang-tidy doxygen chromium)
+developer_packages=(clang clang-format clang-tidy doxygen)
 
 # npm package, file name that `npm pack` gives it, sha512 of that file in base64 (npm shows the same as dist.integrity).
 npm_packages=(

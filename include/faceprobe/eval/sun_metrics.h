@@ -52,12 +52,13 @@ struct SunError {
       0;  // the shorter way round, to 180; NaN too where the true sun is within 5 degrees of straight up or down
   double elevation_deg = 0;  // to 180
 };
+// How far the estimate's sun is from the true one.
 SunError sun_error(const Sun& truth, const std::optional<Sun>& estimate);
 
 // The cumulative curve of angular errors, at a few angles.
 struct SunCurve {
   static constexpr std::array<int, 7> kAngles_deg = {5, 10, 15, 20, 30, 45, 90};
-  static constexpr double kMark = 0.75;
+  static constexpr double kMark = 0.75;  // share of the photos, 0..1, whose errors the mark bounds
 
   std::size_t count = 0;    // all errors
   std::size_t missing = 0;  // those that are no number: they count as 180 degrees, which flatters nobody

@@ -36,13 +36,14 @@ struct JointOptions {
 
 // The lobe: exp(kappa F cos^gamma) - 1, per steradian, F the Fresnel term over that at normal incidence.
 struct SkinLobe {
-  double kappa = 0, gamma = 0;
+  double kappa = 0, gamma = 0;  // its strength and its narrowness, both above 0
 };
 // Of (log kappa, log gamma).
 struct LobePrior {
-  Eigen::Vector2d mean;
-  Eigen::Matrix2d covariance;
+  Eigen::Vector2d mean;        // 2
+  Eigen::Matrix2d covariance;  // 2 x 2
 };
+// What skin in general has: from the table of ten regions, and as wide again for what that does not hold.
 LobePrior skin_lobe_prior();
 
 struct JointEstimate {

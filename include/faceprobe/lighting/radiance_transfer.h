@@ -53,7 +53,7 @@ class RadianceTransfer {
 // another example.
 class RadianceTransferLearner {
  public:
-  RadianceTransferLearner();
+  RadianceTransferLearner();  // with no example yet
   // `features`: face_features(). `light`: kFeatureCells x 3 radiance, over the shading's level. Throws std::invalid_argument for other sizes.
   void add(const Eigen::VectorXf& features, const Eigen::MatrixX3f& light);
   int examples() const { return examples_; }
