@@ -14,9 +14,9 @@ namespace faceprobe::eval {
 namespace {
 
 constexpr double kNoAngle = std::numeric_limits<double>::quiet_NaN();
-constexpr double kFarthest_deg = 180;
+constexpr double kFarthestDeg = 180;
 // Nearer to the vertical than this an azimuth says nothing.
-constexpr double kNoAzimuth_deg = 5;
+constexpr double kNoAzimuthDeg = 5;
 // Directions that cancel out like this have no middle.
 constexpr double kLeastConcentration = 0.01;
 
@@ -141,6 +141,7 @@ std::optional<Sun> sun_of(const Eigen::MatrixX3f& radiance, const SphereGrid& gr
   if (radiance.rows() != grid.cell_count())
     throw std::invalid_argument("The sun of a light needs one radiance per cell.");
   std::vector<Patch> patches;
+  patches.reserve(static_cast<std::size_t>(grid.cell_count()));
   for (int j = 0; j < grid.cell_count(); ++j) {
     patches.push_back({grid.direction(j).cast<double>(),
                        luminance_of_rgb(radiance(j, 0), radiance(j, 1), radiance(j, 2)), grid.cell_solid_angle()});
@@ -153,7 +154,7 @@ SunError sun_error(const Sun& truth, const std::optional<Sun>& estimate) {
   const double right = elevation_deg(truth.direction);
   const double turn = std::abs(azimuth_deg(truth.direction) - azimuth_deg(estimate->direction));
   return {angle_between_deg(truth.direction, estimate->direction),
-          std::abs(right) > 90 - kNoAzimuth_deg ? kNoAngle : std::min(turn, 360 - turn),
+          std::abs(right) > 90 - kNoAzimuthDeg ? kNoAngle : std::min(turn, 360 - turn),
           std::abs(right - elevation_deg(estimate->direction))};
 }
 
@@ -164,11 +165,11 @@ SunCurve sun_curve(std::span<const double> errors_deg, const Bootstrap& bootstra
   std::vector<double> sorted;
   for (const double error : errors_deg) {
     if (!std::isfinite(error)) ++curve.missing;
-    sorted.push_back(std::isfinite(error) ? error : kFarthest_deg);
+    sorted.push_back(std::isfinite(error) ? error : kFarthestDeg);
   }
   std::sort(sorted.begin(), sorted.end());
   for (std::size_t i = 0; i < curve.within.size(); ++i)
-    curve.within[i] = sorted.empty() ? kNoAngle : share_within(sorted, SunCurve::kAngles_deg[i]);
+    curve.within[i] = sorted.empty() ? kNoAngle : share_within(sorted, SunCurve::kAnglesDeg[i]);
   curve.mark_deg = quantile_of_sorted(sorted, SunCurve::kMark);
   const auto [low, high] = sorted.size() < 2 ? std::pair(kNoAngle, kNoAngle) : mark_interval(sorted, bootstrap);
   curve.mark_low_deg = low;
@@ -179,7 +180,7 @@ SunCurve sun_curve(std::span<const double> errors_deg, const Bootstrap& bootstra
 std::string sun_markdown(const ScoreTable& table, const std::string& group, const std::string& label) {
   std::string head = "| sun_centroid | n |";
   std::string rule = "|---|---:|";
-  for (const int angle : SunCurve::kAngles_deg) {
+  for (const int angle : SunCurve::kAnglesDeg) {
     head += " <= " + std::to_string(angle) + " |";
     rule += "---:|";
   }

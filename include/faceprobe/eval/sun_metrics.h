@@ -57,13 +57,13 @@ SunError sun_error(const Sun& truth, const std::optional<Sun>& estimate);
 
 // The cumulative curve of angular errors, at a few angles.
 struct SunCurve {
-  static constexpr std::array<int, 7> kAngles_deg = {5, 10, 15, 20, 30, 45, 90};
+  static constexpr std::array<int, 7> kAnglesDeg = {5, 10, 15, 20, 30, 45, 90};
   static constexpr double kMark = 0.75;  // share of the photos, 0..1, whose errors the mark bounds
 
   std::size_t count = 0;    // all errors
   std::size_t missing = 0;  // those that are no number: they count as 180 degrees, which flatters nobody
-  std::array<double, kAngles_deg.size()> within{};  // share of all errors that are not above the angle, 0..1
-  double mark_deg = 0;                              // three quarters of the errors are below it
+  std::array<double, kAnglesDeg.size()> within{};  // share of all errors that are not above the angle, 0..1
+  double mark_deg = 0;                             // three quarters of the errors are below it
   double mark_low_deg = 0;  // its 95 % interval, percentile bootstrap; NaN for fewer than two errors
   double mark_high_deg = 0;
 };
