@@ -75,7 +75,11 @@ void catch_stop_signals() {
   if (::pipe2(stop_pipe, O_CLOEXEC) != 0) throw Error(ExitCode::kUnexpected, "No pipe could be opened.");
   struct sigaction action {};
   action.sa_handler = note_signal;
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::sigaction(signal, &action, nullptr);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction before {};
+    ::sigaction(signal, nullptr, &before);
+    if (before.sa_handler != SIG_IGN) ::sigaction(signal, &action, nullptr);  // nohup wants to be left alone
+  }
 }
 
 void wait_for_stop_signal() {
@@ -116,7 +120,13 @@ int run(const Options& options) {
     wait_for_stop_signal();
     server.stop();
   });
-  server.run();
+  try {
+    server.run();
+  } catch (...) {
+    note_signal(0);  // nobody else wakes the listener
+    listener.join();
+    throw;
+  }
   listener.join();
   return 0;
 }
