@@ -34,6 +34,7 @@ export async function expectAccessible(page: Page, info: TestInfo, state: string
   for (const theme of ['light', 'dark'] as const) {
     await page.emulateMedia({ colorScheme: theme, reducedMotion: 'reduce' }); // colours that fade in have little contrast at first
     expect(await seriousFindings(page), `${state}, ${theme}`).toEqual([]);
+    await page.evaluate(() => scrollTo(0, 0));
     await keepPicture(page, info, `${state}-${theme}`);
   }
   await page.setViewportSize(narrow);

@@ -7,11 +7,14 @@ test('a photo that is dropped', async ({ page }) => {
   await page.goto('/');
   await expect(page.getByRole('heading', { name: 'Drop a photo of a face' })).toBeVisible();
   const grace = samplePhoto('grace_hopper.jpg');
+  const packed: string[] = [];
+  page.on('response', (response) => response.headers()['content-encoding'] && packed.push(response.url()));
   const begin = Date.now();
   await drop(page, { name: 'grace hopper.jpg', mimeType: 'image/jpeg', buffer: grace });
   await expect(partsOf(page).estimating).toBeVisible();
   await expectMap(page);
   console.log(`From the drop to the map: ${((Date.now() - begin) / 1000).toFixed(1)} s.`);
+  expect(packed, 'to pack an answer takes longer than to send it on the same machine').toEqual([]);
   await expect(partsOf(page).photoName).toHaveText('grace hopper.jpg');
   await expect(partsOf(page).photo).toHaveJSProperty('naturalWidth', 512);
   await expect(page).toHaveTitle('grace hopper.jpg – Faceprobe');
