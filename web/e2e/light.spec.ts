@@ -8,7 +8,7 @@ const width = 512;
 const height = 256;
 
 // The mean of a channel over some of the panorama.
-function meanOf(rgba: number[], channel: number, wanted: (x: number, y: number) => boolean): number {
+function meanOf(rgba: Uint8Array, channel: number, wanted: (x: number, y: number) => boolean): number {
   let sum = 0;
   let count = 0;
   for (let y = 0; y < height; ++y) {
@@ -38,9 +38,7 @@ test('exposure brightens the panorama, confidence hatches what was not seen', as
   await expect(page.getByText('Hatched: what the face did not see')).toBeVisible();
   const doubt = page.locator('.panorama-frame canvas').nth(1);
   await expect(doubt).toBeVisible();
-  const hatching = await doubt.evaluate((canvas: HTMLCanvasElement) =>
-    Array.from(canvas.getContext('2d')!.getImageData(0, 0, canvas.width, canvas.height).data),
-  );
+  const hatching = await pixelsOf(page, doubt);
   // A face sees what is behind the photographer, in the middle, and not what is behind itself.
   const middle = meanOf(hatching, 3, (x, y) => Math.abs(x - width / 2) < 40 && Math.abs(y - height / 2) < 40);
   const behind = meanOf(hatching, 3, (x, y) => (x < 40 || x >= width - 40) && Math.abs(y - height / 2) < 40);

@@ -28,7 +28,8 @@ export async function startServer(...options: string[]): Promise<Server> {
 }
 
 export async function stopServer(server: Server): Promise<void> {
-  if (server.process.exitCode !== null) return;
+  const { exitCode, signalCode } = server.process;
+  if (exitCode !== null || signalCode !== null) return;
   const ended = new Promise((resolve) => server.process.once('exit', resolve));
   server.process.kill('SIGTERM');
   await ended;

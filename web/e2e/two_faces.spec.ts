@@ -22,7 +22,7 @@ test('faces are chosen in the photo or beside the light', async ({ page, twoFace
   const ofTheSecond = await pixelsOf(page);
   await seenBy.getByRole('radio', { name: 'All faces together' }).check();
   await expect(first).toContainText(azimuth(twoFaces.report.joint_light!.main_lights));
-  await expect.poll(async () => String(await pixelsOf(page)) === String(ofTheSecond)).toBe(false);
+  await expect.poll(async () => Buffer.compare(await pixelsOf(page), ofTheSecond)).not.toBe(0);
   await expect(page.getByRole('region', { name: 'Layers' })).toContainText('Layers belong to one face');
   await expect(boxes.locator('[aria-pressed=true]')).toHaveCount(0);
 
