@@ -179,7 +179,7 @@ void add_estimate_routes(httplib::Server& http, Studio& studio, const ServerOpti
   http.Get(one + R"(/archive\.zip)", [done](const Request& request, Response& response) {
     const auto record = done(request);
     response.set_content(zip_of(record->output(), record->files, "faceprobe"), "application/zip");
-    response.set_header("Content-Disposition", "attachment; filename=\"faceprobe.zip\"");
+    response.set_header("Content-Disposition", "attachment");
   });
   http.Post(
       one + "/insertions", [&studio](const Request& request, Response& response, const httplib::ContentReader& read) {

@@ -69,6 +69,17 @@ TEST_F(PageTest, WithoutOneTheServerSaysSo) {
   EXPECT_EQ(server.get("/info").status, 200);
 }
 
+TEST_F(PageTest, NothingIsPackedOnItsWayToTheSameMachine) {
+  const RunningServer server(with_page());
+  for (const std::string target : {"/assets/x.js", "/api/v1/objects/pot"}) {
+    const auto answer = server.client().Get(target, httplib::Headers{{"Accept-Encoding", "br, gzip, deflate"}});
+    ASSERT_TRUE(answer) << target;
+    EXPECT_EQ(answer->status, 200);
+    EXPECT_FALSE(answer->has_header("Content-Encoding"))
+        << target << ": " << answer->get_header_value("Content-Encoding");
+  }
+}
+
 TEST_F(PageTest, AnswersOfTheApiAreNotKept) {
   const RunningServer server(with_page());
   for (const std::string address : {"/info", "/estimates", "/objects/cube", "/estimates/0123456789abcdef"})

@@ -55,7 +55,6 @@ test('dragging moves the thing, and rendering puts it there', async ({ page, ser
   await expect(parts.rendered).toHaveJSProperty('complete', true);
   await page.waitForTimeout(200);
   const drawn = await differenceOf(page, await parts.frame.screenshot(), empty);
-  console.log(JSON.stringify({ was, is, drawn }));
   for (const side of ['left', 'right', 'top', 'bottom'] as const)
     expect(Math.abs(drawn[side] - is[side]), `${side} of the thing, rendered and previewed`).toBeLessThan(0.03);
 
