@@ -119,17 +119,42 @@ std::string type_of(const Request& request) {
   return type;
 }
 
+Json json_of(const EstimateRecord& record) { return estimate_json(record); }
+Json json_of(const InsertionRecord& record) { return insertion_json(record); }
+fs::path folder_of(const EstimateRecord& record) { return record.output(); }
+const fs::path& folder_of(const InsertionRecord& record) { return record.home.path(); }
+
+template <class Record>
+const Record& done(const Record& record) {
+  if (record.job.state().phase == JobPhase::kDone) return record;
+  throw Refusal(FailureKind::kNotFound, "There are no files here yet, because the work is not done.");
+}
+
+// What estimates and insertions have in common. `record_of`: request to shared pointer; `remove`: by id.
+template <class RecordOf, class Remove>
+void add_job_routes(httplib::Server& http, const std::string& one, const RecordOf& record_of, const Remove& remove,
+                    const std::atomic<bool>& closing) {
+  http.Get(one,
+           [record_of](const Request& request, Response& response) { answer(response, json_of(*record_of(request))); });
+  http.Delete(one, [remove](const Request& request, Response& response) {
+    remove(request.matches[1]);
+    response.status = 204;
+  });
+  http.Get(one + "/events", [record_of, &closing](const Request& request, Response& response) {
+    const auto record = record_of(request);
+    stream_events(response, record, record->job, closing);
+  });
+  http.Get(one + "/files/(.+)", [record_of](const Request& request, Response& response) {
+    const auto record = record_of(request);
+    send_listed(response, folder_of(done(*record)), record->files, request.matches[2]);
+  });
+}
+
 void add_estimate_routes(httplib::Server& http, Studio& studio, const ServerOptions& options,
                          const std::atomic<bool>& closing) {
   const std::string all = std::string(kRoot) + "/estimates";
   const std::string one = all + "/" + kId;
   const auto record_of = [&studio](const Request& request) { return studio.records().estimate(request.matches[1]); };
-  const auto done = [record_of](const Request& request) {
-    auto record = record_of(request);
-    if (record->job.state().phase != JobPhase::kDone)
-      throw Refusal(FailureKind::kNotFound, "This estimate has no files, because it is not done.");
-    return record;
-  };
   http.Get(all, [&studio](const Request&, Response& response) {
     Json list = Json::array();
     for (const auto& record : studio.records().estimates()) list.push_back(summary_json(*record));
@@ -155,30 +180,17 @@ void add_estimate_routes(httplib::Server& http, Studio& studio, const ServerOpti
     }
     accept(response, "/estimates/" + record->id, estimate_json(*record));
   });
-  http.Get(one, [record_of](const Request& request, Response& response) {
-    answer(response, estimate_json(*record_of(request)));
-  });
-  http.Delete(one, [&studio](const Request& request, Response& response) {
-    studio.records().remove_estimate(request.matches[1]);
-    response.status = 204;
-  });
-  http.Get(one + "/events", [record_of, &closing](const Request& request, Response& response) {
-    const auto record = record_of(request);
-    stream_events(response, record, record->job, closing);
-  });
+  add_job_routes(
+      http, one, record_of, [&studio](const std::string& id) { studio.records().remove_estimate(id); }, closing);
   http.Get(one + "/photo", [record_of](const Request& request, Response& response) {
     const auto record = record_of(request);
     if (!fs::is_regular_file(record->shown_photo()))
       throw Refusal(FailureKind::kNotFound, "This photo has not been read.");
     send_file(response, record->shown_photo(), ".png");
   });
-  http.Get(one + "/files/(.+)", [done](const Request& request, Response& response) {
-    const auto record = done(request);
-    send_listed(response, record->output(), record->files, request.matches[2]);
-  });
-  http.Get(one + R"(/archive\.zip)", [done](const Request& request, Response& response) {
-    const auto record = done(request);
-    response.set_content(zip_of(record->output(), record->files, "faceprobe"), "application/zip");
+  http.Get(one + R"(/archive\.zip)", [record_of](const Request& request, Response& response) {
+    const auto record = record_of(request);
+    response.set_content(zip_of(folder_of(done(*record)), record->files, "faceprobe"), "application/zip");
     response.set_header("Content-Disposition", "attachment");
   });
   http.Post(
@@ -193,23 +205,8 @@ void add_estimate_routes(httplib::Server& http, Studio& studio, const ServerOpti
 void add_insertion_routes(httplib::Server& http, Studio& studio, const std::atomic<bool>& closing) {
   const std::string one = std::string(kRoot) + "/insertions/" + kId;
   const auto record_of = [&studio](const Request& request) { return studio.records().insertion(request.matches[1]); };
-  http.Get(one, [record_of](const Request& request, Response& response) {
-    answer(response, insertion_json(*record_of(request)));
-  });
-  http.Delete(one, [&studio](const Request& request, Response& response) {
-    studio.records().remove_insertion(request.matches[1]);
-    response.status = 204;
-  });
-  http.Get(one + "/events", [record_of, &closing](const Request& request, Response& response) {
-    const auto record = record_of(request);
-    stream_events(response, record, record->job, closing);
-  });
-  http.Get(one + "/files/(.+)", [record_of](const Request& request, Response& response) {
-    const auto record = record_of(request);
-    if (record->job.state().phase != JobPhase::kDone)
-      throw Refusal(FailureKind::kNotFound, "This insertion has no files, because it is not done.");
-    send_listed(response, record->home.path(), record->files, request.matches[2]);
-  });
+  add_job_routes(
+      http, one, record_of, [&studio](const std::string& id) { studio.records().remove_insertion(id); }, closing);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
+#include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -45,19 +46,26 @@ OIIO::ImageSpec make_spec(int width, int height, int channels, const OIIO::TypeD
   return spec;
 }
 
-// Encodes in memory, then writes: the encoders do not report a full disk, write() does.
-void encode_and_write(const std::filesystem::path& path, const std::string& format, const OIIO::ImageSpec& spec,
-                      const OIIO::TypeDesc& type, const void* values) {
+// `name`: for messages, and by its extension for the encoders.
+std::vector<unsigned char> encoded(const std::filesystem::path& name, const std::string& format,
+                                   const OIIO::ImageSpec& spec, const OIIO::TypeDesc& type, const void* values) {
   std::vector<unsigned char> bytes;
   OIIO::Filesystem::IOVecOutput memory(bytes);
   const std::unique_ptr<OIIO::ImageOutput> writer = OIIO::ImageOutput::create(format);
   const auto fail = [&] {
     std::string reason = writer ? writer->geterror() : OIIO::geterror();
     std::replace(reason.begin(), reason.end(), '\n', ' ');
-    throw Error(ExitCode::kOutput, path.string() + " cannot be encoded: " + reason + ".");
+    throw Error(ExitCode::kOutput, name.string() + " cannot be encoded: " + reason + ".");
   };
   if (!writer || !writer->set_ioproxy(&memory)) fail();
-  if (!writer->open(path.string(), spec) || !writer->write_image(type, values) || !writer->close()) fail();
+  if (!writer->open(name.string(), spec) || !writer->write_image(type, values) || !writer->close()) fail();
+  return bytes;
+}
+
+// Encodes in memory, then writes: the encoders do not report a full disk, write() does.
+void encode_and_write(const std::filesystem::path& path, const std::string& format, const OIIO::ImageSpec& spec,
+                      const OIIO::TypeDesc& type, const void* values) {
+  const std::vector<unsigned char> bytes = encoded(path, format, spec, type, values);
   write_file_atomically(path, std::as_bytes(std::span(bytes)));
 }
 
@@ -91,12 +99,18 @@ void write_hdr(const std::filesystem::path& path, const Image& image, const Attr
   encode_and_write(path, "hdr", spec, OIIO::TypeDesc::FLOAT, clamped(image, 0.0F, kLargestRgbe).data());
 }
 
-void write_png(const std::filesystem::path& path, const ByteImage& image, const Attributes& attributes) {
+std::vector<unsigned char> png_of(const std::filesystem::path& name, const ByteImage& image,
+                                  const Attributes& attributes) {
   OIIO::ImageSpec spec = make_spec(image.width(), image.height(), image.channels(), OIIO::TypeDesc::UINT8, attributes);
   spec.attribute("oiio:ColorSpace", "sRGB");
   spec.attribute("oiio:UnassociatedAlpha", 1);  // written as it is, not divided by alpha
   spec.attribute("png:compressionLevel", kPngLevel);
-  encode_and_write(path, "png", spec, OIIO::TypeDesc::UINT8, image.data());
+  return encoded(name, "png", spec, OIIO::TypeDesc::UINT8, image.data());
+}
+
+void write_png(const std::filesystem::path& path, const ByteImage& image, const Attributes& attributes) {
+  const std::vector<unsigned char> bytes = png_of(path, image, attributes);
+  write_file_atomically(path, std::as_bytes(std::span(bytes)));
 }
 
 // Colour to sRGB; a fourth channel is coverage and stays proportional.
@@ -129,6 +143,14 @@ void write_picture(const std::filesystem::path& path, const ByteImage& image, co
   require_channels(path, image.channels(), false);
   if (extension_of(path) != ".png") refuse_extension(path, ".png");
   write_png(path, image, attributes);
+}
+
+std::string png_data_uri(const ByteImage& image) {
+  const std::filesystem::path name = "picture.png";
+  require_channels(name, image.channels(), false);
+  const std::vector<unsigned char> bytes = png_of(name, image, {});
+  return "data:image/png;base64," +
+         OIIO::Strutil::base64_encode({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 void write_env_map(const std::filesystem::path& path, const EnvMap& map, Orientation orientation,

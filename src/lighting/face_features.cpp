@@ -13,7 +13,6 @@ namespace {
 constexpr float kWidth = 0.14F;          // radians: half a cell's spacing
 constexpr float kLeastCosine = 0.85F;    // four widths
 constexpr float kEnoughWeight = 0.005F;  // of all patches: at this much a cell is half known
-constexpr float kHighlightScale = 3.0F;  // highlights are weaker than shading; brings both to one size
 
 using Cells = Eigen::Matrix<float, kFeatureCells, 4, Eigen::RowMajor>;
 

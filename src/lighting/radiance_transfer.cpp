@@ -15,7 +15,6 @@ namespace faceprobe::lighting {
 namespace {
 
 constexpr float kLeastKnown = 0.02F;     // of a highlight, to be looked up
-constexpr float kHighlightUnit = 3.0F;   // what face_features.cpp multiplies highlights by
 constexpr double kLeastVariance = 1e-4;  // a hundredth of the level: as well as intensities can be measured
 
 using Terms = Eigen::Matrix<double, kTransferTerms, 1>;
@@ -63,7 +62,7 @@ Eigen::MatrixX4f point_intensities(const Eigen::VectorXf& features) {
       mirrored += place.weight[k] * highlight.row(place.cell[k]).head<3>().array().square().matrix();
       seen += place.weight[k] * highlight(place.cell[k], 3);
     }
-    if (seen > kLeastKnown) intensity += mirrored / (seen * kHighlightUnit * kSkinLuminance);
+    if (seen > kLeastKnown) intensity += mirrored / (seen * kHighlightScale * kSkinLuminance);
     out.row(j) << intensity, known;
   }
   return out;

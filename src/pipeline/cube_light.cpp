@@ -31,55 +31,6 @@ CubeFaces draw_faces(int size, const Colour& colour_of) {
   return faces;
 }
 
-void add_big_endian(std::string& out, std::uint32_t value) {
-  for (int shift = 24; shift >= 0; shift -= 8) out += static_cast<char>((value >> shift) & 0xFFU);
-}
-
-std::uint32_t crc32_of(const std::string& bytes) {
-  std::uint32_t crc = 0xFFFFFFFFU;
-  for (const char c : bytes) {
-    crc ^= static_cast<std::uint8_t>(c);
-    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ ((crc & 1U) != 0 ? 0xEDB88320U : 0U);
-  }
-  return ~crc;
-}
-
-std::uint32_t adler32_of(const std::string& bytes) {
-  std::uint32_t a = 1;
-  std::uint32_t b = 0;
-  for (const char c : bytes) {
-    a = (a + static_cast<std::uint8_t>(c)) % 65521U;
-    b = (b + a) % 65521U;
-  }
-  return (b << 16) | a;
-}
-
-void add_chunk(std::string& out, const std::string& type, const std::string& data) {
-  add_big_endian(out, static_cast<std::uint32_t>(data.size()));
-  out += type + data;
-  add_big_endian(out, crc32_of(type + data));
-}
-
-// RFC 1950 and 1951: blocks that are stored as they are.
-std::string stored_zlib(const std::string& bytes) {
-  std::string out = "\x78\x01";
-  constexpr std::size_t kBlock = 65535;
-  std::size_t at = 0;
-  do {
-    const std::size_t length = std::min(kBlock, bytes.size() - at);
-    const bool last = at + length == bytes.size();
-    out += static_cast<char>(last ? 1 : 0);
-    for (const std::size_t number : {length, ~length}) {
-      out += static_cast<char>(number & 0xFFU);
-      out += static_cast<char>((number >> 8) & 0xFFU);
-    }
-    out.append(bytes, at, length);
-    at += length;
-  } while (at < bytes.size());
-  add_big_endian(out, adler32_of(bytes));
-  return out;
-}
-
 }  // namespace
 
 Eigen::Vector3d cube_direction(int face, int column, int row, int size) {
@@ -127,37 +78,6 @@ ByteImage encode_rgbd(const Image& face) {
       }
       out(x, y, 3) = static_cast<std::uint8_t>(divisor);
     }
-  }
-  return out;
-}
-
-std::string png_bytes(const ByteImage& rgba) {
-  if (rgba.channels() != 4) throw std::invalid_argument("png_bytes takes four channels.");
-  std::string header;
-  add_big_endian(header, static_cast<std::uint32_t>(rgba.width()));
-  add_big_endian(header, static_cast<std::uint32_t>(rgba.height()));
-  header += std::string("\x08\x06\0\0\0", 5);  // eight bits, colour with alpha, not interlaced
-  std::string rows;
-  for (int y = 0; y < rgba.height(); ++y) {
-    rows += '\0';  // no filter
-    const auto row = rgba.row(y);
-    rows.append(row.begin(), row.end());
-  }
-  std::string out = "\x89PNG\r\n\x1a\n";
-  add_chunk(out, "IHDR", header);
-  add_chunk(out, "IDAT", stored_zlib(rows));
-  add_chunk(out, "IEND", "");
-  return out;
-}
-
-std::string base64(const std::string& bytes) {
-  constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t three = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      three = (three << 8) | (i + k < bytes.size() ? static_cast<std::uint8_t>(bytes[i + k]) : 0U);
-    for (std::size_t k = 0; k < 4; ++k) out += i + k <= bytes.size() ? kDigits[(three >> (18 - 6 * k)) & 63U] : '=';
   }
   return out;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// A light as the cube maps that real-time renderers reflect: six faces, each coarser level blurred for a rougher surface, and the bytes in
+// A light as the cube maps that real-time renderers reflect: six faces, each coarser level blurred for a rougher surface, and the pixels in
 // which EXT_lights_image_based wants them.
 
 #include "faceprobe/core/env_map.h"
@@ -8,7 +8,6 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <string>
 
 namespace faceprobe::pipeline {
 
@@ -29,9 +28,5 @@ CubeFaces rough_cube(const Eigen::MatrixX3f& cells, const SphereGrid& grid, doub
 inline constexpr float kLargestRgbd = 255;
 // RGBD: colour = (rgb / 255)^2.2 / (a / 255), up to kLargestRgbd; brighter is cut off, negative is 0.
 ByteImage encode_rgbd(const Image& face);
-
-// A PNG of four channels whose pixels are not compressed.
-std::string png_bytes(const ByteImage& rgba);
-std::string base64(const std::string& bytes);
 
 }  // namespace faceprobe::pipeline

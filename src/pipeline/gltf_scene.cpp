@@ -2,6 +2,7 @@
 #include "faceprobe/core/sh.h"
 #include "faceprobe/core/sphere_grid.h"
 #include "faceprobe/core/version.h"
+#include "faceprobe/io/picture_file.h"
 #include "faceprobe/pipeline/scene_files.h"
 #include "pipeline/cube_light.h"
 
@@ -38,7 +39,7 @@ Gltf add_faces(const CubeFaces& faces, float gain, Gltf& images) {
     for (float& value : face.values()) value *= gain;
     numbers.push_back(images.size());
     Gltf image;
-    image["uri"] = "data:image/png;base64," + base64(png_bytes(encode_rgbd(face)));
+    image["uri"] = io::png_data_uri(encode_rgbd(face));
     images.push_back(std::move(image));
   }
   return numbers;

@@ -13,6 +13,7 @@
 
 #include <atomic>
 #include <functional>
+#include <future>
 #include <utility>
 
 namespace faceprobe::pipeline {
@@ -54,15 +55,18 @@ class Writer {
     }
     const Path path = folder / "confidence.exr";
     job(path, [this, path, &light] { io::write_picture(path, single_channel(light.confidence), attributes_); });
-    const std::string rest = "environment_rest.exr";
-    job(folder / rest, [this, at = folder / rest, &light, &options] {
+    const std::string rest_file = "environment_rest.exr";
+    // By the first of the jobs that wants it.
+    const std::shared_future<EnvMap> rest =
+        std::async(std::launch::deferred, [&light, &options] { return rest_of_environment(light, options); }).share();
+    job(folder / rest_file, [this, at = folder / rest_file, rest] {
       io::Attributes attributes = attributes_;
       attributes["faceprobe:map_columns"] = orientation_name(Orientation::kOpenExr);
-      io::write_env_map(at, rest_of_environment(light, options), Orientation::kOpenExr, attributes);
+      io::write_env_map(at, rest.get(), Orientation::kOpenExr, attributes);
     });
-    text(folder / "light.usda", [&light, rest] { return usd_scene(light, rest); });
-    text(folder / "light.gltf", [&light, &options] { return gltf_scene(light, rest_of_environment(light, options)); });
-    text(folder / "blender.py", [&light, rest] { return blender_script(light, rest); });
+    text(folder / "light.usda", [&light, rest_file] { return usd_scene(light, rest_file); });
+    text(folder / "light.gltf", [&light, rest] { return gltf_scene(light, rest.get()); });
+    text(folder / "blender.py", [&light, rest_file] { return blender_script(light, rest_file); });
   }
   void run(int threads) {
     // A job or two more than processors: writing is partly waiting.

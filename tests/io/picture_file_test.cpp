@@ -1,6 +1,7 @@
 #include "faceprobe/io/picture_file.h"
 
 #include "faceprobe/core/color.h"
+#include "faceprobe/io/data_files.h"
 #include "fixtures.h"
 #include "io/header_peek.h"
 
@@ -145,6 +146,34 @@ TEST(PictureFile, PngOfLightAndOfCodes) {
     ASSERT_TRUE(reader->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, found.data()));
     EXPECT_EQ(found, codes) << name;
   }
+}
+
+TEST(PictureFile, APngWithinATextIsTheFile) {
+  ByteImage image(5, 3, 4);
+  for (std::size_t i = 0; i < image.values().size(); ++i) image.data()[i] = static_cast<std::uint8_t>(4 * i);
+  const TempFolder folder;
+  write_picture(folder / "a.png", image);
+  const std::vector<std::byte> file = read_file(folder / "a.png", 1 << 20);
+  const std::string text = png_data_uri(image);
+  const std::string head = "data:image/png;base64,";
+  ASSERT_EQ(text.substr(0, head.size()), head);
+  // RFC 4648: six bits a character, filled up to four characters.
+  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::vector<std::byte> bytes;
+  unsigned bits = 0;
+  int count = 0;
+  for (const char c : text.substr(head.size())) {
+    if (c == '=') break;
+    const std::size_t value = digits.find(c);
+    ASSERT_NE(value, std::string::npos);
+    bits = (bits << 6) | static_cast<unsigned>(value);
+    count += 6;
+    if (count >= 8) {
+      count -= 8;
+      bytes.push_back(static_cast<std::byte>((bits >> count) & 0xFFU));
+    }
+  }
+  EXPECT_EQ(bytes, file);
 }
 
 TEST(PictureFile, PngAlphaStaysProportional) {

@@ -27,6 +27,9 @@ void write_picture(const std::filesystem::path& path, const Image& image, const 
 // Already encoded bytes, 1, 3 or 4 channels, to .png.
 void write_picture(const std::filesystem::path& path, const ByteImage& image, const Attributes& attributes = {});
 
+// Already encoded bytes, 1, 3 or 4 channels, as a PNG within a text: "data:image/png;base64,..." (RFC 2397, 4648). Throws Error(kOutput).
+std::string png_data_uri(const ByteImage& image);
+
 // Lat-long map to .exr (Rec.709 chromaticities; `envmap = latlong` when the columns
 // are OpenEXR's) or .hdr, columns rolled to `orientation`;
 // .png writes a preview, clipped at 1, whose exposure puts the 90 % quantile at 0.6.
