@@ -19,12 +19,7 @@ std::string fish_place(const VerbText& program) {
 
 // -x: a value and no files; -r -F: a value, files too.
 std::string fish_values(const OptionText& option) {
-  std::string text;
-  if (option.path == OnDisk::kFile) {
-    text = " -r -F";
-  } else {
-    text = " -x";
-  }
+  const std::string text = option.path == OnDisk::kFile ? " -r -F" : " -x";
   if (option.path == OnDisk::kFolder) return text + " -a '(__fish_complete_directories)'";
   return option.choices.empty() ? text : text + " -a " + fish_quoted(joined(option.choices));
 }

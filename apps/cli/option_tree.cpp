@@ -8,13 +8,6 @@ namespace faceprobe::cli {
 
 namespace {
 
-std::vector<std::string> split(const std::string& text, char at) {
-  std::vector<std::string> parts;
-  std::stringstream stream(text);
-  for (std::string part; std::getline(stream, part, at);) parts.push_back(part);
-  return parts;
-}
-
 // "{a,b}|FILE:INT in [0 - 9]" to its parts; what is in braces stays whole.
 std::vector<std::string> type_parts(const std::string& type) {
   std::vector<std::string> parts(1);
@@ -33,7 +26,7 @@ std::vector<std::string> type_parts(const std::string& type) {
 void read_type_part(const std::string& part, OptionText& text) {
   const std::size_t bounds = part.find(" in [");
   if (part.size() > 1 && part.front() == '{' && part.back() == '}') {
-    text.choices = split(part.substr(1, part.size() - 2), ',');
+    text.choices = CLI::detail::split(part.substr(1, part.size() - 2), ',');
   } else if (bounds != std::string::npos && part.back() == ']') {
     text.range = part.substr(bounds + 5, part.size() - bounds - 6);
     if (const std::size_t dash = text.range.find(" - "); dash != std::string::npos) text.range.replace(dash, 3, " to ");
@@ -79,7 +72,7 @@ OptionText read_option(const CLI::Option& option) {
 void read_footer(const std::string& footer, VerbText& verb) {
   bool examples = false;
   bool open = false;  // the paragraph or the example goes on
-  for (const std::string& line : split(footer, '\n')) {
+  for (const std::string& line : CLI::detail::split(footer, '\n')) {
     if (line.empty()) {
       examples = open = false;
     } else if (line == "Example:" || line == "Examples:") {
@@ -128,9 +121,7 @@ void collect(const VerbText& verb, std::vector<const VerbText*>& all) {
 VerbText read_tree(const CLI::App& program) { return read_verb(program, {program.get_name()}); }
 
 std::string joined(const std::vector<std::string>& words, const std::string& separator) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : separator) + word;
-  return text;
+  return CLI::detail::join(words, separator);
 }
 
 std::vector<const VerbText*> all_verbs(const VerbText& program) {

@@ -13,8 +13,8 @@ namespace faceprobe::cli {
 struct RelightRows {
   std::filesystem::path weights{};  // of the network; empty = those that come with the program
   std::filesystem::path prior{};    // of the light prior; the same
-  std::filesystem::path
-      training{};  // data whose mean light is a row, and which Knorr & Kurz learn from where it is traced; empty = no such rows
+  // Data whose mean light is a row, and which Knorr & Kurz learn from where it is traced; empty = no such rows.
+  std::filesystem::path training{};
   bool ablation = false;  // rows with a part of the estimate replaced by the truth
   int nside = 16;
   int threads = 0;

@@ -10,10 +10,13 @@
 #include <unistd.h>
 #include <cerrno>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <string>
+#include <system_error>
 #include <thread>
 
 namespace faceprobe::cli {
@@ -30,15 +33,6 @@ struct Options {
   int history = static_cast<int>(serve::StudioOptions{}.history_limit);
   bool open = false;
 };
-
-// The first data folder that has it; empty where none has.
-fs::path data_folder_with(const char* file) {
-  for (const fs::path& folder : io::data_folders()) {
-    std::error_code error;
-    if (fs::is_regular_file(folder / file, error)) return (folder / file).parent_path();
-  }
-  return {};
-}
 
 // Where results lie until the server ends.
 class TemporaryFolder {
@@ -94,8 +88,8 @@ int run(const Options& options) {
   serve::ServerOptions server_options;
   server_options.port = options.port;
   server_options.max_upload_bytes = static_cast<std::int64_t>(options.max_upload_mb) << 20;
-  server_options.page = data_folder_with("web/index.html");
-  server_options.samples = data_folder_with("samples/grace_hopper.jpg");
+  server_options.page = io::find_data("web/index.html").parent_path();
+  server_options.samples = io::find_data("samples");
   server_options.studio.history_limit = static_cast<std::size_t>(options.history);
   server_options.studio.estimate.threads = options.threads;
   server_options.studio.limits.max_file_bytes = server_options.max_upload_bytes;

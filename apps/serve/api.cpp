@@ -14,6 +14,7 @@
 #include <cctype>
 #include <filesystem>
 #include <fstream>
+#include <system_error>
 #include <utility>
 
 namespace faceprobe::serve {
@@ -167,8 +168,11 @@ void add_estimate_routes(httplib::Server& http, Studio& studio, const ServerOpti
     if (type == "application/json") {
       const std::string sample = read_sample_request(read_text(read, response));
       const fs::path file = sample_file(options, sample);
-      record = studio.add_photo(request.has_param("name") ? name : file.filename().string(),
-                                [&](const fs::path& photo) { fs::copy_file(file, photo); });
+      record = studio.add_photo(request.has_param("name") ? name : file.filename().string(), [&](const fs::path& photo) {
+        std::error_code error;
+        if (!fs::copy_file(file, photo, error))
+          throw Error(ExitCode::kOutput, "The photo could not be stored: " + error.message() + ".");
+      });
     } else if (type == "application/octet-stream" || type.starts_with("image/")) {
       record = studio.add_photo(
           name, [&](const fs::path& photo) { write_upload(photo, read, response, options.max_upload_bytes); });

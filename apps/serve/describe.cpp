@@ -1,6 +1,7 @@
 #include "serve/describe.h"
 
 #include "faceprobe/pipeline/insertion.h"
+#include "faceprobe/pipeline/outputs.h"
 #include "faceprobe/pipeline/report.h"
 #include "faceprobe/render/shapes.h"
 
@@ -11,22 +12,15 @@
 namespace faceprobe::serve {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 15> kMediaTypes = {{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kMediaTypes = {{
     {".png", "image/png"},
     {".jpg", "image/jpeg"},
-    {".svg", "image/svg+xml"},
-    {".ico", "image/x-icon"},
     {".exr", "image/x-exr"},
     {".hdr", "image/vnd.radiance"},
     {".json", "application/json"},
     {".gltf", "model/gltf+json"},
     {".usda", "text/plain; charset=utf-8"},
     {".py", "text/x-python; charset=utf-8"},
-    {".zip", "application/zip"},
-    {".html", "text/html; charset=utf-8"},
-    {".js", "text/javascript; charset=utf-8"},
-    {".css", "text/css; charset=utf-8"},
-    {".webmanifest", "application/manifest+json"},
 }};
 
 std::string_view kind_of(render::MaterialKind kind) {
@@ -97,7 +91,7 @@ Json describe(const EstimateRecord& record, const io::Photo& photo, const pipeli
   Json faces = Json::array();
   const bool several = estimate.faces.size() > 1;
   for (std::size_t i = 0; i < estimate.faces.size(); ++i)
-    faces.push_back(face_json(estimate.faces[i], several ? "face_" + std::to_string(i + 1) : ""));
+    faces.push_back(face_json(estimate.faces[i], several ? pipeline::face_folder(i) : ""));
   return {
       {"photo", {{"width_px", estimate.photo_width}, {"height_px", estimate.photo_height}}},
       {"focal_px", estimate.camera.focal_px},

@@ -66,11 +66,8 @@ io::Photo loaded(const EstimateRecord& record, const io::Limits& limits) {
 }
 
 ByteImage shown(const Image& linear) {
-  const double scale = std::min(1.0, static_cast<double>(kShownPx) / std::max(linear.width(), linear.height()));
-  if (scale == 1) return encode_srgb(linear);
-  const auto side = [&](int px) { return std::max(1, static_cast<int>(std::lround(scale * px))); };
-  const Window window{.scale = scale, .width = side(linear.width()), .height = side(linear.height())};
-  return encode_srgb(resampled(linear, window, Outside::kEdge));
+  const Window window = shrunk(linear.width(), linear.height(), kShownPx);
+  return encode_srgb(window.scale == 1 ? linear : resampled(linear, window, Outside::kEdge));
 }
 
 }  // namespace

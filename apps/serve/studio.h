@@ -43,7 +43,6 @@ class Studio {
   std::shared_ptr<InsertionRecord> add_insertion(const std::string& estimate, const InsertionRequest& request);
 
   Records& records() { return records_; }
-  const StudioOptions& options() const { return options_; }
 
  private:
   // Photos that were decoded last, and the models: the worker's own.

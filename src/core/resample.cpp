@@ -48,6 +48,12 @@ BasicImage<T> each_nearest(const BasicImage<T>& picture, const Window& window, s
 
 }  // namespace
 
+Window shrunk(int width, int height, int long_side_px) {
+  const double scale = std::min(1.0, static_cast<double>(long_side_px) / std::max(width, height));
+  const auto side = [scale](int px) { return std::max(1, static_cast<int>(std::lround(scale * px))); };
+  return {.scale = scale, .width = side(width), .height = side(height)};
+}
+
 Image resampled(const Image& picture, const Window& window, Outside outside) {
   const int channels = picture.channels();
   Image part(window.width, window.height, channels);

@@ -85,6 +85,15 @@ std::vector<double> ScoreTable::values(const std::string& metric, const Selectio
   return out;
 }
 
+std::vector<double> ScoreTable::known_values(const std::string& metric, const Selection& selection) const {
+  std::vector<double> out;
+  for (const ScoreRow& row : rows_) {
+    const auto found = row.metrics.find(metric);
+    if (selected(row, selection) && found != row.metrics.end()) out.push_back(found->second);
+  }
+  return out;
+}
+
 Summary ScoreTable::summary(const std::string& metric, const Selection& selection) const {
   return summarize(values(metric, selection), bootstrap_);
 }

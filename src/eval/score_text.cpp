@@ -1,4 +1,5 @@
 // The table as text: CSV for other programs, JSON with the summaries, Markdown for people.
+#include "eval/markdown.h"
 #include "faceprobe/eval/score_table.h"
 
 #include <array>
@@ -18,13 +19,6 @@ std::string exact(double value) {
   return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
 }
 
-std::string rounded(double value, int decimals) {
-  if (!std::isfinite(value)) return "-";
-  std::array<char, 512> text;  // the largest double has 309 digits
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed, decimals);
-  return end.ec == std::errc() ? std::string(text.data(), end.ptr) : exact(value);
-}
-
 std::string csv_cell(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string out = "\"";
@@ -32,33 +26,8 @@ std::string csv_cell(const std::string& text) {
   return out + '"';
 }
 
-// A bar would end the cell, a line break the row.
-std::string markdown_cell(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '|') out += '\\';
-    out += c == '\n' || c == '\r' ? ' ' : c;
-  }
-  return out;
-}
-
-std::string markdown_head(const std::vector<std::string>& titles) {
-  std::string head = "|";
-  std::string rule = "|";
-  for (const std::string& title : titles) {
-    head += ' ' + markdown_cell(title) + " |";
-    rule += rule == "|" ? "---|" : "---:|";  // names to the left, numbers to the right
-  }
-  return head + '\n' + rule + '\n';
-}
-
 std::string interval(const Summary& s, int decimals) {
   return '[' + rounded(s.mean_low, decimals) + ", " + rounded(s.mean_high, decimals) + ']';
-}
-
-std::string count(const Summary& s) {
-  const std::string counted = std::to_string(s.count);
-  return s.missing == 0 ? counted : counted + " (" + std::to_string(s.missing) + " missing)";
 }
 
 Json row_json(const ScoreRow& row) {
@@ -125,8 +94,9 @@ std::string ScoreTable::markdown(const std::string& metric, int decimals) const 
   std::string out = markdown_head({metric, "n", "mean", "95 % of the mean", "median", "p90"});
   for (const std::string& method : methods()) {
     const Summary s = summary(metric, {.method = method});
-    out += "| " + markdown_cell(method) + " | " + count(s) + " | " + rounded(s.mean, decimals) + " | " +
-           interval(s, decimals) + " | " + rounded(s.median, decimals) + " | " + rounded(s.p90, decimals) + " |\n";
+    out += "| " + markdown_cell(method) + " | " + counted(s.count, s.missing) + " | " + rounded(s.mean, decimals) +
+           " | " + interval(s, decimals) + " | " + rounded(s.median, decimals) + " | " + rounded(s.p90, decimals) +
+           " |\n";
   }
   return out;
 }
@@ -140,7 +110,8 @@ std::string ScoreTable::markdown_by_group(const std::string& metric, const std::
     out += "| " + markdown_cell(method) + " |";
     for (const std::string& label : columns) {
       const Summary s = summary(metric, {method, group, label});
-      out += ' ' + rounded(s.mean, decimals) + ' ' + interval(s, decimals) + ", n = " + count(s) + " |";
+      out +=
+          ' ' + rounded(s.mean, decimals) + ' ' + interval(s, decimals) + ", n = " + counted(s.count, s.missing) + " |";
     }
     out += '\n';
   }

@@ -19,20 +19,6 @@ double mean_of(std::span<const double> values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-// Means of lists of the same length, drawn from the values with replacement; ascending.
-std::vector<double> resampled_means(std::span<const double> values, const Bootstrap& bootstrap) {
-  Random random({bootstrap.seed});
-  std::vector<double> means(static_cast<std::size_t>(bootstrap.resamples));
-  const int count = static_cast<int>(values.size());
-  for (double& mean : means) {
-    double sum = 0;
-    for (int i = 0; i < count; ++i) sum += values[static_cast<std::size_t>(random.below(count))];
-    mean = sum / count;
-  }
-  std::sort(means.begin(), means.end());
-  return means;
-}
-
 }  // namespace
 
 double quantile_of_sorted(std::span<const double> sorted, double p) {
@@ -43,26 +29,36 @@ double quantile_of_sorted(std::span<const double> sorted, double p) {
   return sorted[below] + (rank - static_cast<double>(below)) * (sorted[above] - sorted[below]);
 }
 
+std::pair<double, double> bootstrap_interval(std::span<const double> values, const Bootstrap& bootstrap,
+                                             const std::function<double(std::span<double>)>& of) {
+  if (bootstrap.resamples < 1) throw std::invalid_argument("bootstrap_interval: resamples must be at least 1");
+  if (values.size() < 2) return {kNothing, kNothing};
+  Random random({bootstrap.seed});
+  const int count = static_cast<int>(values.size());
+  std::vector<double> found(static_cast<std::size_t>(bootstrap.resamples));
+  std::vector<double> drawn(values.size());
+  for (double& statistic : found) {
+    for (double& value : drawn) value = values[static_cast<std::size_t>(random.below(count))];
+    statistic = of(drawn);
+  }
+  std::sort(found.begin(), found.end());
+  return {quantile_of_sorted(found, 0.025), quantile_of_sorted(found, 0.975)};
+}
+
 Summary summarize(std::span<const double> values, const Bootstrap& bootstrap) {
-  if (bootstrap.resamples < 1) throw std::invalid_argument("summarize: resamples must be at least 1");
   std::vector<double> sorted;
   std::copy_if(values.begin(), values.end(), std::back_inserter(sorted), [](double v) { return std::isfinite(v); });
   // Sorted first, so that the draws do not depend on the order in which values came.
   std::sort(sorted.begin(), sorted.end());
 
-  Summary summary{.count = sorted.size(),
-                  .missing = values.size() - sorted.size(),
-                  .mean = mean_of(sorted),
-                  .median = quantile_of_sorted(sorted, 0.5),
-                  .p90 = quantile_of_sorted(sorted, 0.9),
-                  .mean_low = kNothing,
-                  .mean_high = kNothing};
-  if (sorted.size() >= 2) {
-    const std::vector<double> means = resampled_means(sorted, bootstrap);
-    summary.mean_low = quantile_of_sorted(means, 0.025);
-    summary.mean_high = quantile_of_sorted(means, 0.975);
-  }
-  return summary;
+  const auto [low, high] = bootstrap_interval(sorted, bootstrap, [](std::span<double> drawn) { return mean_of(drawn); });
+  return {.count = sorted.size(),
+          .missing = values.size() - sorted.size(),
+          .mean = mean_of(sorted),
+          .median = quantile_of_sorted(sorted, 0.5),
+          .p90 = quantile_of_sorted(sorted, 0.9),
+          .mean_low = low,
+          .mean_high = high};
 }
 
 Histogram histogram(std::span<const double> values, double low, double high, int bins) {

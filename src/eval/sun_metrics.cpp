@@ -1,11 +1,11 @@
 #include "faceprobe/eval/sun_metrics.h"
 
+#include "eval/markdown.h"
 #include "faceprobe/core/angles.h"
-#include "faceprobe/core/random.h"
+#include "faceprobe/core/color.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <stdexcept>
 #include <vector>
@@ -25,8 +25,6 @@ struct Patch {
   double luminance = 0;
   double solid_angle_sr = 0;
 };
-
-double luminance_of_rgb(double r, double g, double b) { return 0.2126 * r + 0.7152 * g + 0.0722 * b; }
 
 // `patches` by falling luminance. The luminance that the bright area has to exceed.
 double border(const std::vector<Patch>& patches, double area_sr) {
@@ -80,43 +78,6 @@ double share_within(std::span<const double> sorted, double angle) {
   return static_cast<double>(after - sorted.begin()) / static_cast<double>(sorted.size());
 }
 
-// 95 % of the marks of lists of the same length, drawn with replacement.
-std::pair<double, double> mark_interval(std::span<const double> sorted, const Bootstrap& bootstrap) {
-  Random random({bootstrap.seed});
-  const int count = static_cast<int>(sorted.size());
-  std::vector<double> marks(static_cast<std::size_t>(bootstrap.resamples));
-  std::vector<double> drawn(sorted.size());
-  for (double& mark : marks) {
-    for (double& value : drawn) value = sorted[static_cast<std::size_t>(random.below(count))];
-    std::sort(drawn.begin(), drawn.end());
-    mark = quantile_of_sorted(drawn, SunCurve::kMark);
-  }
-  std::sort(marks.begin(), marks.end());
-  return {quantile_of_sorted(marks, 0.025), quantile_of_sorted(marks, 0.975)};
-}
-
-std::string with_decimals(double value, int decimals) {
-  if (!std::isfinite(value)) return "-";
-  char text[32];
-  std::snprintf(text, sizeof text, "%.*f", decimals, value);
-  return text;
-}
-
-std::vector<double> known_values(const ScoreTable& table, const std::string& metric, const std::string& method,
-                                 const std::string& group, const std::string& label) {
-  std::vector<double> values;
-  for (const ScoreRow& row : table.rows()) {
-    const auto value = row.metrics.find(metric);
-    if (row.method != method || value == row.metrics.end()) continue;
-    if (!group.empty()) {
-      const auto found = row.groups.find(group);
-      if (found == row.groups.end() || found->second != label) continue;
-    }
-    values.push_back(value->second);
-  }
-  return values;
-}
-
 }  // namespace
 
 std::string SunOptions::validate() const {
@@ -131,7 +92,7 @@ std::optional<Sun> sun_of(const EnvMap& map, const SunOptions& options) {
     const double solid_angle = texel_solid_angle(y, map.width(), map.height());
     for (int x = 0; x < map.width(); ++x) {
       const float* p = map.radiance().pixel(x, y);
-      patches.push_back({map.direction(x, y).cast<double>(), luminance_of_rgb(p[0], p[1], p[2]), solid_angle});
+      patches.push_back({map.direction(x, y).cast<double>(), static_cast<double>(luminance(p)), solid_angle});
     }
   }
   return find_sun(std::move(patches), options);
@@ -144,7 +105,8 @@ std::optional<Sun> sun_of(const Eigen::MatrixX3f& radiance, const SphereGrid& gr
   patches.reserve(static_cast<std::size_t>(grid.cell_count()));
   for (int j = 0; j < grid.cell_count(); ++j) {
     patches.push_back({grid.direction(j).cast<double>(),
-                       luminance_of_rgb(radiance(j, 0), radiance(j, 1), radiance(j, 2)), grid.cell_solid_angle()});
+                       static_cast<double>(luminance(radiance(j, 0), radiance(j, 1), radiance(j, 2))),
+                       grid.cell_solid_angle()});
   }
   return find_sun(std::move(patches), options);
 }
@@ -159,7 +121,6 @@ SunError sun_error(const Sun& truth, const std::optional<Sun>& estimate) {
 }
 
 SunCurve sun_curve(std::span<const double> errors_deg, const Bootstrap& bootstrap) {
-  if (bootstrap.resamples < 1) throw std::invalid_argument("sun_curve: resamples must be at least 1");
   SunCurve curve;
   curve.count = errors_deg.size();
   std::vector<double> sorted;
@@ -171,36 +132,38 @@ SunCurve sun_curve(std::span<const double> errors_deg, const Bootstrap& bootstra
   for (std::size_t i = 0; i < curve.within.size(); ++i)
     curve.within[i] = sorted.empty() ? kNoAngle : share_within(sorted, SunCurve::kAnglesDeg[i]);
   curve.mark_deg = quantile_of_sorted(sorted, SunCurve::kMark);
-  const auto [low, high] = sorted.size() < 2 ? std::pair(kNoAngle, kNoAngle) : mark_interval(sorted, bootstrap);
+  const auto [low, high] = bootstrap_interval(sorted, bootstrap, [](std::span<double> drawn) {
+    std::sort(drawn.begin(), drawn.end());
+    return quantile_of_sorted(drawn, SunCurve::kMark);
+  });
   curve.mark_low_deg = low;
   curve.mark_high_deg = high;
   return curve;
 }
 
 std::string sun_markdown(const ScoreTable& table, const std::string& group, const std::string& label) {
-  std::string head = "| sun_centroid | n |";
-  std::string rule = "|---|---:|";
-  for (const int angle : SunCurve::kAnglesDeg) {
-    head += " <= " + std::to_string(angle) + " |";
-    rule += "---:|";
-  }
   std::string lines;
   for (const std::string& method : table.methods()) {
-    const std::vector<double> errors = known_values(table, "sun_centroid", method, group, label);
+    const Selection rows{method, group, label};
+    const std::vector<double> errors = table.known_values("sun_centroid", rows);
     if (errors.empty()) continue;
     const SunCurve curve = sun_curve(errors);
     const auto median = [&](const std::string& metric) {
-      return with_decimals(summarize(known_values(table, metric, method, group, label), {.resamples = 1}).median, 1);
+      std::vector<double> values = table.known_values(metric, rows);
+      std::erase_if(values, [](double value) { return !std::isfinite(value); });
+      std::sort(values.begin(), values.end());
+      return rounded(quantile_of_sorted(values, 0.5), 1);
     };
-    lines += "| " + method + " | " + std::to_string(curve.count);
-    lines += curve.missing > 0 ? " (" + std::to_string(curve.missing) + " missing) |" : " |";
-    for (const double share : curve.within) lines += ' ' + with_decimals(100 * share, 0) + " % |";
-    lines += ' ' + with_decimals(curve.mark_deg, 1) + " [" + with_decimals(curve.mark_low_deg, 1) + ", " +
-             with_decimals(curve.mark_high_deg, 1) + "] | " + median("sun_azimuth") + " | " + median("sun_elevation") +
-             " |\n";
+    lines += "| " + markdown_cell(method) + " | " + counted(curve.count, curve.missing) + " |";
+    for (const double share : curve.within) lines += ' ' + rounded(100 * share, 0) + " % |";
+    lines += ' ' + rounded(curve.mark_deg, 1) + " [" + rounded(curve.mark_low_deg, 1) + ", " +
+             rounded(curve.mark_high_deg, 1) + "] | " + median("sun_azimuth") + " | " + median("sun_elevation") + " |\n";
   }
   if (lines.empty()) return {};
-  return head + " 75 % mark [95 %] | azimuth, median | elevation, median |\n" + rule + "---:|---:|---:|\n" + lines;
+  std::vector<std::string> titles = {"sun_centroid", "n"};
+  for (const int angle : SunCurve::kAnglesDeg) titles.push_back("<= " + std::to_string(angle));
+  titles.insert(titles.end(), {"75 % mark [95 %]", "azimuth, median", "elevation, median"});
+  return markdown_head(titles) + lines;
 }
 
 }  // namespace faceprobe::eval

@@ -22,6 +22,14 @@ std::vector<fs::path> data_folders() {
   return folders;
 }
 
+fs::path find_data(const std::string& name) {
+  for (const fs::path& folder : data_folders()) {
+    std::error_code error;
+    if (fs::exists(folder / name, error)) return folder / name;
+  }
+  return {};
+}
+
 fs::path data_file(const std::string& name) {
   std::string searched;
   for (const fs::path& folder : data_folders()) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace faceprobe::lighting {
 namespace {
@@ -28,7 +29,7 @@ Spread spread_of(double value) {
   spread.offset = place - spread.first;
   for (std::size_t k = 0; k < spread.share.size(); ++k) {
     const double away = spread.offset - static_cast<double>(k);
-    spread.share[k] = 0.3989422804014327 * std::exp(-0.5 * away * away);
+    spread.share[k] = std::numbers::inv_sqrtpi / std::numbers::sqrt2 * std::exp(-0.5 * away * away);
   }
   return spread;
 }

@@ -55,7 +55,7 @@ JointEstimate solve_lombardi_nishino(const Observations& observations, const Joi
   if (const std::string fault = options.validate(); !fault.empty()) throw std::invalid_argument(fault);
   JointEstimate estimate;
   estimate.nside = options.nside;
-  estimate.radiance = Eigen::MatrixX3f::Zero(12 * options.nside * options.nside, 3);
+  estimate.radiance = Eigen::MatrixX3f::Zero(SphereGrid(options.nside).cell_count(), 3);
   if (observations.count() == 0) return estimate;
   JointObjective objective(observations, options);
   if (!(objective.level() > 0)) return estimate;

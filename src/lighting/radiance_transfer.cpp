@@ -79,11 +79,10 @@ RadianceTransfer::RadianceTransfer(Eigen::MatrixXd transfer, Eigen::VectorXd var
 Eigen::MatrixX3d RadianceTransfer::solve(const Eigen::VectorXf& features, double ridge) const {
   if (!(ridge > 0)) throw std::invalid_argument("The ridge must be above 0.");
   const Eigen::MatrixX4d intensities = point_intensities(features).cast<double>();
-  Eigen::MatrixX3d right = Eigen::MatrixX3d::Zero(kTransferTerms, 3);
   const Eigen::VectorXd weight = intensities.col(3).cwiseQuotient(variance_);
-  if (!(weight.sum() > 0)) return right;
+  if (!(weight.sum() > 0)) return Eigen::MatrixX3d::Zero(kTransferTerms, 3);
   const Eigen::MatrixXd weighted = (weight / weight.sum()).asDiagonal() * transfer_;
-  right = weighted.transpose() * intensities.leftCols<3>();
+  const Eigen::MatrixX3d right = weighted.transpose() * intensities.leftCols<3>();
   Eigen::MatrixXd products = weighted.transpose() * transfer_;
   products.diagonal().array() += ridge;
   return products.ldlt().solve(right);

@@ -164,7 +164,7 @@ std::vector<Path> write_outputs(const Path& folder, const Estimate& estimate, co
     add_face(folder, estimate, photo, 0, options, output, writer);
   } else {
     for (std::size_t i = 0; i < estimate.faces.size(); ++i) {
-      add_face(folder / ("face_" + std::to_string(i + 1)), estimate, photo, i, options, output, writer);
+      add_face(folder / face_folder(i), estimate, photo, i, options, output, writer);
     }
     if (estimate.joint) {
       io::create_folder(folder / "joint");

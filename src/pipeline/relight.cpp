@@ -118,10 +118,7 @@ struct Change {
 };
 Change change_of(const FaceEstimate& face, const Eigen::MatrixX3f& radiance, const RelightOptions& options) {
   const face::Crop& crop = face.geometry.crop;
-  const double scale = std::min(1.0, static_cast<double>(options.shading_px) / std::max(crop.width, crop.height));
-  const Window window{.scale = scale,
-                      .width = std::max(1, static_cast<int>(std::lround(scale * crop.width))),
-                      .height = std::max(1, static_cast<int>(std::lround(scale * crop.height)))};
+  const Window window = shrunk(crop.width, crop.height, options.shading_px);
   const SmallFace small = small_face(face.geometry, window);
   const SphereGrid grid(kNside);
   const lighting::Transport transport =

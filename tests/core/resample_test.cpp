@@ -30,6 +30,18 @@ TEST(Resample, EachPixelIsFromWhereTheWindowSays) {
   }
 }
 
+TEST(Resample, APictureIsShrunkToALongSide) {
+  const Window window = shrunk(3000, 2000, 600);
+  EXPECT_DOUBLE_EQ(window.scale, 0.2);
+  EXPECT_EQ(window.width, 600);
+  EXPECT_EQ(window.height, 400);
+  const Window flat = shrunk(3000, 1, 600);
+  EXPECT_EQ(flat.height, 1);  // never nothing
+  const Window small = shrunk(30, 20, 600);
+  EXPECT_EQ(small.scale, 1);
+  EXPECT_EQ(small.width, 30);
+}
+
 TEST(Resample, ShrinkingKeepsTheMean) {
   Image checks(8, 8, 1);
   for (int i = 0; i < 64; ++i) checks.data()[i] = static_cast<float>((i % 8 + i / 8) % 2);

@@ -42,6 +42,14 @@ test('the whole way by keyboard', async ({ page }) => {
   await page.keyboard.press('Enter');
   const request = (await asked).postDataJSON();
   expect(request).toMatchObject({ object: 'pot', material: 'gold', turn_deg: 6, face: 0, quality: 'preview' });
+  // To the left, up and nearer, as the keys have said.
+  const id = new URL(page.url()).searchParams.get('estimate');
+  const { spot } = (await (await page.request.get(`/api/v1/estimates/${id}`)).json()) as {
+    spot: { at_px: [number, number]; distance_m: number };
+  };
+  expect(request.at_px[0]).toBeLessThan(spot.at_px[0]);
+  expect(request.at_px[1]).toBeLessThan(spot.at_px[1]);
+  expect(request.distance_m).toBeLessThan(spot.distance_m);
   await expect(parts.rendered).toBeVisible();
   await expect(parts.rendered).toHaveJSProperty('naturalWidth', 512);
   // On to what has just appeared below.

@@ -27,6 +27,9 @@ struct Window {
 
 enum class Outside : std::uint8_t { kBlack, kEdge };
 
+// The whole of a picture of that size, its longer side `long_side_px` at most; of one that is no larger as it is.
+Window shrunk(int width, int height, int long_side_px);
+
 // Linear between pixels, the mean over each pixel where it shrinks. Outside the picture black, or as its nearest pixel.
 Image resampled(const Image& picture, const Window& window, Outside outside = Outside::kBlack);
 

@@ -51,6 +51,8 @@ class ScoreTable {
 
   // One value for each selected row, in order; NaN where the row has none of this metric.
   std::vector<double> values(const std::string& metric, const Selection& selection = {}) const;
+  // The same without the rows that have none of this metric.
+  std::vector<double> known_values(const std::string& metric, const Selection& selection = {}) const;
   Summary summary(const std::string& metric, const Selection& selection = {}) const;
   Histogram histogram(const std::string& metric, const Selection& selection, double low, double high, int bins) const;
 

@@ -10,7 +10,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace faceprobe::eval {
@@ -33,6 +35,12 @@ struct Summary {
 
 // The order of the values does not matter. Throws std::invalid_argument when bootstrap.resamples < 1.
 Summary summarize(std::span<const double> values, const Bootstrap& bootstrap = {});
+
+// Ends of the 95 % percentile-bootstrap interval of any statistic, in its unit; `of` is given each list of draws and may reorder it. `values`
+// ascend, so that the draws do not depend on the order in which they came. NaN twice for fewer than two values. Throws std::invalid_argument when
+// bootstrap.resamples < 1.
+std::pair<double, double> bootstrap_interval(std::span<const double> values, const Bootstrap& bootstrap,
+                                             const std::function<double(std::span<double>)>& of);
 
 // p in [0, 1]; linear between the two nearest ranks; NaN for an empty list. `sorted` ascends.
 double quantile_of_sorted(std::span<const double> sorted, double p);

@@ -36,7 +36,7 @@ struct SunOptions {
   // A map whose brightest texel is not this many times its mean has no sun.
   double least_contrast = 1.2;
 
-  std::string validate() const;
+  std::string validate() const;  // empty when usable, else which value is wrong
 };
 
 // The centroid: directions of the bright area weighted by solid angle times luminance. Nothing for a map that is even, black, or whose bright
@@ -48,8 +48,8 @@ std::optional<Sun> sun_of(const Eigen::MatrixX3f& radiance, const SphereGrid& gr
 // Degrees, 0 or more; NaN where nothing was found.
 struct SunError {
   double angle_deg = 0;  // between the directions, to 180
-  double azimuth_deg =
-      0;  // the shorter way round, to 180; NaN too where the true sun is within 5 degrees of straight up or down
+  // The shorter way round, to 180; NaN too where the true sun is within 5 degrees of straight up or down.
+  double azimuth_deg = 0;
   double elevation_deg = 0;  // to 180
 };
 // How far the estimate's sun is from the true one.

@@ -14,15 +14,16 @@ namespace faceprobe::lighting {
 inline constexpr int kFeatureNside = 4;                                   // of core/sphere_grid.h
 inline constexpr int kFeatureCells = 12 * kFeatureNside * kFeatureNside;  // 192
 inline constexpr int kFaceFeatures = 2 * kFeatureCells * 4;
-inline constexpr float kHighlightScale =
-    3.0F;  // what highlights are multiplied by: weaker than shading, brought to its size
+// What highlights are multiplied by: they are weaker than shading, and this brings both to one size.
+inline constexpr float kHighlightScale = 3.0F;
 
 // Mean luminance of the shading over patches that are not clipped, by weight: the unit of features and of the light that is learnt. 0 without
 // such patches.
 float shading_level(const Observations& observations);
 
 // kFaceFeatures numbers: for each cell the square roots of red, green and blue of the shading over its level, and how well they are known,
-// 0 to 1; then the same of the highlights times kHighlightScale. All zero where the level is 0. Throws std::invalid_argument for observations that do not validate.
+// 0 to 1; then the same of the highlights times kHighlightScale. All zero where the
+// level is 0. Throws std::invalid_argument for observations that do not validate.
 Eigen::VectorXf face_features(const Observations& observations);
 
 // The features of the mirror image, left and right changed places. Throws std::invalid_argument for another length.

@@ -29,9 +29,9 @@ struct JointOptions {
   double noise = 0.1;    // standard deviation of the appearance, over its mean: what texture and normals put in
   double gradient = 1;   // weight of the gradients' prior; 0 = none
   double entropy = 0.3;  // weight of the entropy's prior; 0 = none
-  int threads = 0;
+  int threads = 0;       // 0 = all processors
 
-  std::string validate() const;
+  std::string validate() const;  // empty when usable, else which value is wrong
 };
 
 // The lobe: exp(kappa F cos^gamma) - 1, per steradian, F the Fresnel term over that at normal incidence.

@@ -46,7 +46,7 @@ Eigen::Vector3f up_in(const Estimate& estimate, const InsertionOptions& options 
 struct Spot {
   Eigen::Vector2d at_px = Eigen::Vector2d::Zero();  // of the photo, where the foot is seen
   float depth_m = 0;                                // of the foot along the camera's axis
-  float height_m = 0;
+  float height_m = 0;                               // of the thing
 };
 // `model`: at any size and place; only its shape counts.
 Spot spot_for(const Estimate& estimate, const render::Model& model, const InsertionOptions& options = {});

@@ -21,6 +21,9 @@ struct OutputOptions {
   bool overview = true;
 };
 
+// The folder of face `index`, from 0, where there are several: "face_1".
+inline std::string face_folder(std::size_t index) { return "face_" + std::to_string(index + 1); }
+
 // Attributes for files that can carry them (EXR, PNG): version, frame, solver, separator, hash of the photo.
 std::map<std::string, std::string> provenance(const io::Photo& photo, const EstimateOptions& options);
 // The same of a light that is of no one photo.

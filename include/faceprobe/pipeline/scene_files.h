@@ -25,7 +25,7 @@ std::string usd_scene(const LightResult& light, const std::string& map_file);
 std::string blender_script(const LightResult& light, const std::string& map_file);
 
 // glTF 2.0, text, that needs no other file: EXT_lights_image_based with `rest` (rest_of_environment()) as cube maps, 64 texels wide at most, in RGBD,
-// and as irradiance; KHR_lights_punctual with the lamp. There is nothing in it to look at. The frame is the camera's. About 180 kB.
+// and as irradiance; KHR_lights_punctual with the lamp. There is nothing in it to look at. The frame is the camera's. Under 100 kB.
 std::string gltf_scene(const LightResult& light, const EnvMap& rest);
 
 // Nine radiance coefficients (core/sh.h; more are left out) as EXT_lights_image_based has them, 9 x 3: of irradiance, not divided by pi, with the

@@ -10,7 +10,7 @@ export interface History {
   entries: EstimateSummary[];
   trouble?: string;
   refresh(): void;
-  remove(id: string): Promise<void>;
+  remove(id: string): Promise<boolean>; // whether it is gone
 }
 
 export function useHistory(): History {
@@ -23,8 +23,10 @@ export function useHistory(): History {
     try {
       await deleteEstimate(id);
       setState(({ entries }) => ({ entries: entries.filter((entry) => entry.id !== id) }));
+      return true;
     } catch (error) {
       fail(error);
+      return false;
     }
   }, []);
   useEffect(refresh, []);

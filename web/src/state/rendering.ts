@@ -1,6 +1,6 @@
 // The path tracer's picture: asked for, on its way, there.
 
-import { useState } from 'preact/hooks';
+import { useRef, useState } from 'preact/hooks';
 
 import { addressOf, deleteInsertion, getInsertion, insertObject } from '../api/client.ts';
 import { sentenceOf } from '../api/failure.ts';
@@ -19,6 +19,7 @@ export function useRendering(estimate: string, onDone: () => void): Rendering {
   const [id, setId] = useState<string | null>(null);
   const [asking, setAsking] = useState(false);
   const [refusal, setRefusal] = useState<string>();
+  const unwanted = useRef(false); // cancelled before the server had answered
   const { thing, job, trouble } = useJob(id, {
     get: getInsertion,
     events: addressOf.insertionEvents,
@@ -32,16 +33,21 @@ export function useRendering(estimate: string, onDone: () => void): Rendering {
     ...(thing?.job.state === 'done' && { done: thing }),
     ...(sentence !== undefined && { trouble: sentence }),
     start: async (request) => {
+      unwanted.current = false;
+      setId(null);
       setAsking(true);
       setRefusal(undefined);
       try {
-        setId((await insertObject(estimate, request)).id);
+        const made = await insertObject(estimate, request);
+        if (unwanted.current) await deleteInsertion(made.id);
+        else setId(made.id);
       } catch (error) {
         setRefusal(sentenceOf(error));
       }
       setAsking(false);
     },
     cancel: () => {
+      unwanted.current = true;
       if (id === null) return;
       setId(null);
       deleteInsertion(id).catch((error: unknown) => setRefusal(sentenceOf(error)));

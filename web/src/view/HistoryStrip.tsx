@@ -37,7 +37,7 @@ export function HistoryStrip({ history, intake, shown, onPick, onRemoved }: Prop
               class="thumb-remove"
               aria-label={`Remove ${entry.name}`}
               title="Remove"
-              onClick={() => void history.remove(entry.id).then(() => onRemoved(entry.id))}
+              onClick={() => void history.remove(entry.id).then((gone) => gone && onRemoved(entry.id))}
             >
               <span aria-hidden="true">×</span>
             </button>
