@@ -14,7 +14,9 @@ function(faceprobe_room name)
   foreach(room ${ARG_ROOMS})
     target_link_libraries(faceprobe_${name} PUBLIC faceprobe_${room})
   endforeach()
-  target_precompile_headers(faceprobe_${name} PRIVATE <algorithm> <array> <cmath> <string> <vector> <Eigen/Dense>)
+  if(NOT FACEPROBE_UNITY)  # which reads them once anyway
+    target_precompile_headers(faceprobe_${name} PRIVATE <algorithm> <array> <cmath> <string> <vector> <Eigen/Dense>)
+  endif()
   set_property(GLOBAL APPEND PROPERTY FACEPROBE_ROOMS faceprobe_${name})
 endfunction()
 
@@ -29,6 +31,10 @@ function(faceprobe_test name)
   endforeach()
   # What a test does itself takes no time; compiling it does.
   target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
-  target_precompile_headers(${name} PRIVATE <gtest/gtest.h> <Eigen/Dense> <cmath> <string> <vector>)
+  if(TARGET core_tests)  # the first of them; all are compiled alike
+    target_precompile_headers(${name} REUSE_FROM core_tests)
+  else()
+    target_precompile_headers(${name} PRIVATE <gtest/gtest.h> <Eigen/Dense> <cmath> <string> <vector>)
+  endif()
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60)
 endfunction()

@@ -9,7 +9,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=$root/build/release
 {
   "$root/scripts/setup.sh"
-  cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
+  cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DFACEPROBE_UNITY=ON \
     -DFACEPROBE_BUILD_TESTS=OFF -DFACEPROBE_BUILD_BENCH=OFF
   cmake --build "$build" --target faceprobe
 } >&2

@@ -35,7 +35,7 @@ if [ $compile = 1 ]; then
   [ -z "${FACEPROBE_PACKAGE_RELEASE:-}" ] || options+=("-DFACEPROBE_PACKAGE_RELEASE=$FACEPROBE_PACKAGE_RELEASE")
   # The prefix decides where Debian wants libraries (lib/x86_64-linux-gnu). The linker's flags are Debian's own: what the loader has resolved
   # cannot be overwritten.
-  cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_INSTALL_PREFIX=/usr \
+  cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DFACEPROBE_UNITY=ON -DCMAKE_INSTALL_PREFIX=/usr \
     -DCMAKE_EXE_LINKER_FLAGS=-Wl,-z,relro,-z,now \
     -DFACEPROBE_BUILD_TESTS=OFF -DFACEPROBE_BUILD_BENCH=OFF -DFACEPROBE_SYNTH=ON -DFACEPROBE_SERVE=ON -DFACEPROBE_TRAIN=OFF \
     -DFACEPROBE_PYTHON=OFF -DFACEPROBE_NATIVE=OFF -DFACEPROBE_SANITIZE= "${options[@]}" >&2

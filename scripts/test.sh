@@ -8,7 +8,7 @@ set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=$root/build/test
 "$root/scripts/setup.sh"
-cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
+cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DFACEPROBE_UNITY=ON \
   -DFACEPROBE_BUILD_TESTS=ON -DFACEPROBE_BUILD_BENCH=ON -DFACEPROBE_TRAIN=ON -DFACEPROBE_PYTHON=ON
 cmake --build "$build"
 ctest --test-dir "$build" --output-on-failure -j2 "$@"

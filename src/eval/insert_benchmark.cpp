@@ -1,5 +1,6 @@
 #include "faceprobe/eval/insert_benchmark.h"
 
+#include "eval/nan.h"
 #include "eval/synthetic_photo.h"
 #include "faceprobe/core/color.h"
 #include "faceprobe/core/error.h"
@@ -9,13 +10,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace faceprobe::eval {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 // Where the thing stands: shares of the picture and of the face's depth.
 constexpr double kAcross = 0.6;
 constexpr double kDown = 0.9;

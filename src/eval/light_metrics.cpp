@@ -1,5 +1,6 @@
 #include "faceprobe/eval/light_metrics.h"
 
+#include "eval/nan.h"
 #include "faceprobe/core/angles.h"
 #include "faceprobe/eval/image_metrics.h"
 #include "faceprobe/eval/statistics.h"
@@ -7,14 +8,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 namespace faceprobe::eval {
 namespace {
 
 const Eigen::Vector3f kLuminance(0.2126F, 0.7152F, 0.0722F);
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 Image scaled_and_clipped(Image image, float gain) {
   for (float& value : image.values()) value = std::min(1.0F, gain * value);

@@ -1,5 +1,6 @@
 #include "faceprobe/eval/relight_benchmark.h"
 
+#include "eval/nan.h"
 #include "eval/relight_sheet.h"
 #include "eval/synthetic_photo.h"
 #include "faceprobe/core/error.h"
@@ -9,14 +10,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
 namespace faceprobe::eval {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 std::map<std::string, double> all_metrics(const Eigen::MatrixX3f& truth, const Eigen::MatrixX3f& found,
                                           const LitObject& object, const SphereGrid& grid, bool one_lamp,

@@ -1,18 +1,17 @@
 #include "faceprobe/eval/room_benchmark.h"
 
+#include "eval/nan.h"
 #include "eval/synthetic_photo.h"
 #include "faceprobe/core/error.h"
 
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace faceprobe::eval {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kChiSquare95 = 7.815;  // three degrees of freedom
 constexpr double kMostFaceMatch_px =
     30;  // per 384 px of the picture: a found face is the true one nearest to it in the photo

@@ -110,7 +110,8 @@ TEST(AtomicFile, KeepsPermissionsAndFollowsLinks) {
 
 TEST(AtomicFile, LongNames) {
   TempFolder folder;
-  const std::string name = std::string(250, 'n') + ".json";  // the longest a file system takes is 255
+  std::string name(250, 'n');  // the longest a file system takes is 255
+  name += ".json";
   write_file_atomically(folder / name, std::string_view("x"));
   EXPECT_EQ(text_of(folder / name), "x");
 }

@@ -27,6 +27,10 @@ check() {
 }
 
 check photo "$photo"
+# README.md's first object.
+"$blender" --background --factory-startup --python-exit-code 1 --python "$work/photo/blender.py" \
+  --python "$here/../../scripts/blender_demo.py" -- "$work/monkey.png" >"$work/log" 2>&1 || { tail -n 20 "$work/log"; exit 1; }
+[ -s "$work/monkey.png" ] || { echo "scripts/blender_demo.py wrote no picture"; exit 1; }
 # The same face darkened from the left and reddened: now its main light is at camera right.
 if [ $# -lt 3 ] && command -v oiiotool >/dev/null; then
   oiiotool --create 512x600 3 --fill:color=.15,.15,.15 168x600 --fill:left=.15,.15,.15:right=1,.8,.7 188x600+168+0 \
