@@ -31,10 +31,6 @@ function(faceprobe_test name)
   endforeach()
   # What a test does itself takes no time; compiling it does.
   target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
-  if(TARGET core_tests)  # the first of them; all are compiled alike
-    target_precompile_headers(${name} REUSE_FROM core_tests)
-  else()
-    target_precompile_headers(${name} PRIVATE <gtest/gtest.h> <Eigen/Dense> <cmath> <string> <vector>)
-  endif()
+  target_precompile_headers(${name} PRIVATE <gtest/gtest.h> <Eigen/Dense> <cmath> <string> <vector>)
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60)
 endfunction()
