@@ -18,6 +18,7 @@ debian_packages=(
   libtorch-dev libembree-dev libopenblas-dev libmatio-dev libhdf5-dev libtinyobjloader-dev libassimp-dev libzip-dev
   libcpp-httplib-dev nlohmann-json3-dev libcli11-dev libspdlog-dev libnanoflann-dev libgtest-dev
   python3-dev python3-numpy pybind11-dev
+  python3-matplotlib python3-skimage  # of two tests: the notebook, and our image metrics against theirs
 )
 developer_packages=(clang clang-format clang-tidy doxygen)
 

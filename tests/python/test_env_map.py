@@ -54,6 +54,10 @@ class EnvMap(InFolder):
             with self.assertRaises(TypeError):
                 fp.EnvMap(wrong)
 
+    def test_refuses_masks_that_it_would_lose(self):
+        with self.assertRaisesRegex(TypeError, "mask"):
+            fp.EnvMap(np.ma.masked_array(gradient(), mask=gradient() > 3))
+
     def test_refuses_other_shapes_and_layouts(self):
         for wrong in (gradient()[0], gradient()[:, :, :2].copy(), np.zeros((0, 0, 3), np.float32)):
             with self.subTest(shape=wrong.shape), self.assertRaisesRegex(ValueError, "shape"):

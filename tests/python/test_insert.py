@@ -81,7 +81,9 @@ class Insert(InFolder):
 
     def test_saves_a_picture_or_a_folder(self):
         done = insert()
-        self.assertEqual(done.save(self.folder / "a.png"), [self.folder / "a.png"])
+        for name in ("a.png", "a.exr", "a.hdr"):
+            self.assertEqual(done.save(self.folder / name), [self.folder / name])
+            self.assertTrue((self.folder / name).is_file())
         files = done.save(str(self.folder / "all"))
         self.assertEqual({file.name for file in files}, set(os.listdir(self.folder / "all")))
         self.assertIn("object.png", os.listdir(self.folder / "all"))
@@ -132,6 +134,8 @@ class Relight(InFolder):
 
     def test_refuses(self):
         dark = fp.EnvMap(np.zeros((8, 16, 3), np.float32))
+        with self.assertRaisesRegex(TypeError, r"map must be an EnvMap or a path, found ndarray; .*EnvMap\(array\)"):
+            fp.relight(portrait_light(), estimate=portrait(), map=dark.to_numpy())
         for wrong in ({}, {"dim": 6}, {"dim": -1}, {"turn": float("nan")}, {"exposure": 1e9}, {"map": dark, "dim": 1}):
             with self.subTest(**wrong), self.assertRaises(fp.UsageError):
                 fp.relight(portrait_light(), estimate=portrait(), **wrong)

@@ -35,6 +35,7 @@ class Threads(unittest.TestCase):
             ("estimate", lambda: fp.estimate(PORTRAIT)),
             ("insert", lambda: fp.insert(PORTRAIT, "cube", samples=16, estimate=portrait())),
             ("relight", lambda: fp.relight(PORTRAIT, dim=1, estimate=portrait())),
+            ("sample", lambda: fp.EnvMap(np.ones((64, 128, 3), np.float32)).sample(np.ones((4000000, 3), np.float32))),
         ):
             seconds, silence = self.ticks_during(work)
             with self.subTest(name=name, seconds=seconds, silence=silence):

@@ -32,6 +32,10 @@ void refuse_type(const py::array& array, const std::string& what, const std::str
 }
 
 void check_layout(const py::array& array, const std::string& what, const std::vector<py::ssize_t>& shape) {
+  if (py::isinstance(array, py::module_::import("numpy").attr("ma").attr("MaskedArray"))) {
+    throw py::type_error(what + " is a masked array, and its mask would be lost; array.filled(value) says what stands " +
+                         "where it hides.");
+  }
   if (!fits(array, shape)) {
     const std::vector<py::ssize_t> found(array.shape(), array.shape() + array.ndim());
     throw py::value_error(what + " must be of shape " + shape_text(shape, "N") + " with N above 0, found " +

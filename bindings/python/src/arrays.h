@@ -47,11 +47,11 @@ py::array_t<typename Derived::Scalar> table(const Eigen::MatrixBase<Derived>& va
 
 inline constexpr py::ssize_t kAnySize = -1;
 
-// The rest of check_array: raises ValueError unless the shape fits, no size is 0, and the values lie row by row.
+// The rest of check_array: raises ValueError unless the shape fits, no size is 0, and the values lie row by row; TypeError for a masked array.
 void check_layout(const py::array& array, const std::string& what, const std::vector<py::ssize_t>& shape);
 [[noreturn]] void refuse_type(const py::array& array, const std::string& what, const std::string& wanted);
 
-// Raises TypeError for another element type, ValueError for another shape or a layout that is not C-contiguous.
+// Raises TypeError for another element type and for masked arrays, ValueError for another shape or a layout that is not C-contiguous.
 template <class T>
 void check_array(const py::array& array, const std::string& what, const std::vector<py::ssize_t>& shape) {
   if (!py::isinstance<py::array_t<T>>(array)) refuse_type(array, what, py::str(py::dtype::of<T>()));

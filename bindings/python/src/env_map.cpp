@@ -28,7 +28,10 @@ MapPtr map_from(const py::array& radiance) {
 py::array_t<float> sample(const EnvMap& map, const py::array& directions) {
   const Eigen::MatrixX3f rows = rows_of_three(directions, "directions");
   Eigen::MatrixX3f found(rows.rows(), 3);
-  for (Eigen::Index i = 0; i < rows.rows(); ++i) found.row(i) = map.sample(rows.row(i).transpose()).transpose();
+  {
+    const py::gil_scoped_release release;
+    for (Eigen::Index i = 0; i < rows.rows(); ++i) found.row(i) = map.sample(rows.row(i).transpose()).transpose();
+  }
   return table(found);
 }
 

@@ -92,7 +92,7 @@ bool is_picture_file(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-  return extension == ".png" || extension == ".exr";
+  return extension == ".png" || extension == ".exr" || extension == ".hdr";
 }
 
 std::vector<std::filesystem::path> save(const Inserted& inserted, const std::filesystem::path& path) {
@@ -136,7 +136,7 @@ Arrays are read-only views without a copy, valid however long they are kept.)");
           "to_json", [](const Inserted& i) { return pipeline::insertion_json(i.done, i.scene, i.photo, i.object); },
           "What `faceprobe insert --json` prints: schema faceprobe-insert/1.")
       .def("save", &save, py::arg("path"),
-           R"(NAME.png or NAME.exr: the picture alone; else the folder that `faceprobe insert` leaves.
+           R"(NAME.png, NAME.exr or NAME.hdr: the picture alone; else the folder that `faceprobe insert` leaves.
 
 Returns the files as a list of pathlib.Path. Raises OutputError.)");
 }
@@ -160,7 +160,7 @@ object: "sphere", "cube", "pot", "robot", "spheres", or the path of an OBJ, PLY,
 material: in place of the object's own: "diffuse", "plastic", "silver", "gold", "mirror", "glass", "clay", "red".
 at: (x, y), pixel of the photo where its foot stands; else the lower corner with more room.
 distance: metres from the camera; else three quarters of the largest face's.
-height: metres; else its longer side takes a third of the picture.
+height: metres; else its longer side takes 35 % of the picture's shorter one.
 turn: degrees about its own axis, its front to the right.
 horizon: height of the horizon in the photo, pixels from the top; else from the heads.
 ground: False, and it floats: nothing takes its shadow.

@@ -15,20 +15,32 @@ namespace {
 
 using MapSource = std::variant<std::shared_ptr<EnvMap>, std::filesystem::path>;
 
+// Raises TypeError unless it is None, an EnvMap or a path.
+std::optional<MapSource> map_source(const py::object& map) {
+  if (map.is_none()) return {};
+  if (py::isinstance<EnvMap>(map)) return map.cast<std::shared_ptr<EnvMap>>();
+  py::detail::make_caster<std::filesystem::path> path;
+  if (path.load(map, false)) return py::detail::cast_op<std::filesystem::path&>(path);
+  throw py::type_error("map must be an EnvMap or a path, found " +
+                       std::string(py::str(py::type::of(map).attr("__name__"))) +
+                       "; of an array, EnvMap(array) makes one.");
+}
+
 EnvMap map_of(const MapSource& source) {
   const auto* path = std::get_if<std::filesystem::path>(&source);
   return path == nullptr ? *std::get<std::shared_ptr<EnvMap>>(source) : io::read_env_map(*path);
 }
 
-py::array_t<float> relight(const py::object& photo, const std::optional<MapSource>& map, int dim, double turn,
-                           double exposure, int threads, EstimatedPtr estimated) {
+py::array_t<float> relight(const py::object& photo, const py::object& map, int dim, double turn, double exposure,
+                           int threads, EstimatedPtr estimated) {
   check_threads(threads);
   pipeline::LightChange change{.map = {}, .dim = dim, .turn_deg = turn, .exposure = exposure};
+  const std::optional<MapSource> new_light = map_source(map);
   PhotoSource source(photo);
   std::shared_ptr<Image> picture;
   {
     const py::gil_scoped_release release;
-    if (map) change.map = map_of(*map);
+    if (new_light) change.map = map_of(*new_light);
     if (const std::string fault = change.validate(); !fault.empty()) throw Error(ExitCode::kUsage, fault);
     const std::string name = source.name();
     io::Photo loaded = std::move(source).load();

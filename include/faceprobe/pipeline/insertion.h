@@ -20,7 +20,7 @@ namespace faceprobe::pipeline {
 struct InsertionOptions {
   std::optional<Eigen::Vector2d> at_px{};  // pixel of the photo where the thing's foot is seen
   std::optional<float> depth_m{};      // of the foot along the camera's axis; else three quarters of the largest face's
-  std::optional<float> height_m{};     // else so that its longer side takes a third of the picture's shorter one
+  std::optional<float> height_m{};     // else so that its longer side takes .35 of the picture's shorter one
   float turn_deg = 0;                  // about its own axis; positive turns its front to the right of the photo
   std::optional<double> horizon_px{};  // height of the horizon in the photo; else up is told by the heads
   bool ground = true;                  // whether it stands on something that takes its shadow
