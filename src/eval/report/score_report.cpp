@@ -1,0 +1,132 @@
+// Tables and plots of scores.
+#include "eval/markdown.h"
+#include "faceprobe/eval/paper_report.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace faceprobe::eval {
+namespace {
+
+std::optional<double> known(double value) { return std::isfinite(value) ? std::optional(value) : std::nullopt; }
+
+std::optional<std::pair<double, double>> mean_interval(const Summary& s) {
+  if (!std::isfinite(s.mean_low) || !std::isfinite(s.mean_high)) return std::nullopt;
+  return std::pair(s.mean_low, s.mean_high);
+}
+
+// A method fails where its metric is NaN; rows without the metric do not belong to the measurement.
+struct Counts {
+  std::size_t finite = 0;
+  std::size_t missing = 0;
+};
+Counts counts_of(const ScoreTable& scores, const std::string& metric, const Selection& rows) {
+  const std::vector<double> values = scores.known_values(metric, rows);
+  const auto finite = static_cast<std::size_t>(
+      std::count_if(values.begin(), values.end(), [](double value) { return std::isfinite(value); }));
+  return {finite, values.size() - finite};
+}
+
+// The number of samples beside the label where it is the same for all methods, else beside each method's name; there too what is missing.
+void tell_counts(ReportTable& table, const std::vector<std::vector<Counts>>& counts) {
+  const auto same_total = [](const Counts& a, const Counts& b) { return a.finite + a.missing == b.finite + b.missing; };
+  const bool same = std::all_of(counts.begin(), counts.end(), [&](const std::vector<Counts>& c) {
+    return std::equal(c.begin(), c.end(), counts.front().begin(), same_total);
+  });
+  for (std::size_t i = 0; i < table.columns.size() && !counts.empty(); ++i) {
+    const std::string label = table.columns[i];
+    if (same) table.columns[i] += ", n = " + std::to_string(counts.front()[i].finite + counts.front()[i].missing);
+    for (std::size_t m = 0; m < counts.size(); ++m) {
+      const Counts& c = counts[m][i];
+      std::string told_count = same ? "" : label + " n = " + counted(c.finite, c.missing);
+      if (same && c.missing > 0) told_count = label + ' ' + std::to_string(c.missing) + " missing";
+      std::string& note = table.rows[m].note;
+      if (!told_count.empty()) note += (note.empty() ? "" : ", ") + told_count;
+    }
+  }
+}
+
+ReportPlot values_plot(const ScoreTable& scores, const std::string& metric, const std::string& title,
+                       const std::string& unit, const std::set<std::string>& ours, PlotKind kind) {
+  ReportPlot plot{.title = title, .x_label = unit, .kind = kind};
+  for (const std::string& method : scores.methods()) {
+    plot.series.push_back(
+        {.name = method, .values = scores.known_values(metric, {.method = method}), .ours = ours.contains(method)});
+  }
+  return plot;
+}
+
+}  // namespace
+
+ReportTable table_of(const ScoreTable& scores, const std::string& metric, const std::string& title, int decimals,
+                     const std::set<std::string>& ours, Better better) {
+  ReportTable table{.title = title,
+                    .columns = {"mean", "median", "n"},
+                    .decimals = {decimals, decimals, 0},
+                    .better = {better, better, Better::kNeither}};
+  for (const std::string& method : scores.methods()) {
+    const Summary s = scores.summary(metric, {.method = method});
+    const Counts counts = counts_of(scores, metric, {.method = method});
+    table.rows.push_back({.name = method,
+                          .values = {known(s.mean), known(s.median), static_cast<double>(counts.finite)},
+                          .intervals = {mean_interval(s), std::nullopt, std::nullopt},
+                          .ours = ours.contains(method),
+                          .note = counts.missing > 0 ? std::to_string(counts.missing) + " missing" : ""});
+  }
+  return table;
+}
+
+ReportTable table_by_group(const ScoreTable& scores, const std::string& metric, const std::string& group,
+                           const std::string& title, int decimals, const std::set<std::string>& ours, Better better) {
+  const std::vector<std::string> labels = scores.labels(group);
+  const std::vector<std::string> methods = scores.methods();
+  ReportTable table{.title = title,
+                    .columns = labels,
+                    .decimals = std::vector<int>(labels.size(), decimals),
+                    .better = std::vector<Better>(labels.size(), better)};
+  std::vector<std::vector<Counts>> counts(methods.size());  // of each label
+  for (std::size_t m = 0; m < methods.size(); ++m) {
+    ReportTable::Row row{.name = methods[m], .ours = ours.contains(methods[m])};
+    for (const std::string& label : labels) {
+      const Selection rows{methods[m], group, label};
+      const Summary s = scores.summary(metric, rows);
+      row.values.push_back(known(s.mean));
+      row.intervals.push_back(mean_interval(s));
+      counts[m].push_back(counts_of(scores, metric, rows));
+    }
+    table.rows.push_back(std::move(row));
+  }
+  tell_counts(table, counts);
+  return table;
+}
+
+ReportPlot histogram_of(const ScoreTable& scores, const std::string& metric, const std::string& title,
+                        const std::string& unit, const std::set<std::string>& ours) {
+  return values_plot(scores, metric, title, unit, ours, PlotKind::kHistogram);
+}
+
+ReportPlot cumulative_of(const ScoreTable& scores, const std::string& metric, const std::string& title,
+                         const std::string& unit, const std::set<std::string>& ours) {
+  return values_plot(scores, metric, title, unit, ours, PlotKind::kCumulative);
+}
+
+ReportPlot bars_of(const ScoreTable& scores, const std::string& metric, const std::string& title,
+                   const std::string& unit, const std::set<std::string>& ours, const std::string& group) {
+  ReportPlot plot{.title = title, .x_label = unit, .kind = PlotKind::kBars};
+  if (!group.empty()) plot.groups = scores.labels(group);
+  for (const std::string& method : scores.methods()) {
+    ReportSeries series{.name = method, .ours = ours.contains(method)};
+    std::vector<Selection> places;
+    for (const std::string& label : plot.groups) places.push_back({method, group, label});
+    if (group.empty()) places.push_back({.method = method});
+    for (const Selection& place : places) {
+      const Summary s = scores.summary(metric, place);
+      series.values.push_back(s.mean);
+      series.intervals.push_back(mean_interval(s));
+    }
+    plot.series.push_back(std::move(series));
+  }
+  return plot;
+}
+
+}  // namespace faceprobe::eval
