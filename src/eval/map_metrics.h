@@ -1,0 +1,17 @@
+#pragma once
+// Internal: all that light_metrics.h says of an estimate, under the names that tables have.
+
+#include "faceprobe/core/sphere_grid.h"
+#include "faceprobe/eval/lit_object.h"
+
+#include <Eigen/Core>
+#include <map>
+#include <string>
+
+namespace faceprobe::eval {
+
+// `found` without cells, or black: all NaN. "main_light" is there alone when `one_lamp`.
+std::map<std::string, double> map_metrics(const Eigen::MatrixX3f& truth, const Eigen::MatrixX3f& found,
+                                          const LitObject& object, const SphereGrid& grid, bool one_lamp);
+
+}  // namespace faceprobe::eval
