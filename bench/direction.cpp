@@ -5,11 +5,19 @@
 #include "direction/direction.h"
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <iostream>
 #include <string>
+
+std::vector<double> faceprobe::bench::answers(const eval::ScoreTable& scores, const std::string& metric,
+                                              const eval::Selection& rows) {
+  std::vector<double> values = scores.known_values(metric, rows);
+  std::erase_if(values, [](double value) { return !std::isfinite(value); });
+  return values;
+}
 
 int main(int argc, char** argv) {
   CLI::App app("Angles between estimated and known lights");

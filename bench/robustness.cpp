@@ -8,7 +8,7 @@
 #include "faceprobe/core/error.h"
 #include "faceprobe/io/photo.h"
 #include "faceprobe/pipeline/estimate.h"
-#include "support/csv.h"
+#include "paper/csv.h"
 #include "support/photos.h"
 #include "support/sanity.h"
 #include "support/statistics.h"
@@ -85,7 +85,7 @@ struct Index {
 Index read_index(const fs::path& file) {
   Index index;
   if (!fs::exists(file)) return index;
-  const bench::CsvTable table = bench::read_csv(file);
+  const cli::CsvTable table = cli::read_csv(file);
   const std::size_t name = table.column("file");
   const std::size_t faces = table.column("faces_found");
   for (const auto& row : table.rows) index.faces[row[name]] = std::stoi(row[faces]);

@@ -1,5 +1,7 @@
 #include "commands.h"
+#include "eval_paper.h"
 #include "eval_stages.h"
+#include "faceprobe/core/error.h"
 
 #include <spdlog/fmt/fmt.h>
 #include <unistd.h>
@@ -25,11 +27,17 @@ std::function<void(int, int)> eval_progress() {
 namespace {
 
 int run(const EvalOptions& options) {
+  if (options.stage.empty() || options.data.empty()) {
+    throw Error(ExitCode::kUsage, options.stage.empty() ? "What is to be measured? A stage is wanted, see --help."
+                                                        : "--data is missing: the folder to measure on.");
+  }
   if (options.stage == "geometry") return eval_geometry(options);
   if (options.stage == "shading") return eval_shading(options);
   if (options.stage == "relight") return eval_relight(options);
   if (options.stage == "insert") return eval_insert(options);
   if (options.stage == "triangulate") return eval_triangulate(options);
+  if (options.stage == "cases") return eval_cases(options);
+  if (options.stage == "export-cases") return eval_export_cases(options);
   return eval_highlight(options);
 }
 
@@ -39,29 +47,36 @@ void add_eval(CLI::App& program, Action& action) {
   auto options = std::make_shared<EvalOptions>();
   CLI::App* command = program.add_subcommand("eval", "measures a stage on data whose answer is known");
   command->add_option("STAGE", options->stage, "what to measure")
-      ->required()
-      ->check(CLI::IsMember({"highlight", "geometry", "shading", "relight", "insert", "triangulate"}));
-  command->add_option("--data", options->data, "folder that `faceprobe synth` wrote")->type_name("DIR")->required();
+      ->check(CLI::IsMember(
+          {"highlight", "geometry", "shading", "relight", "insert", "triangulate", "cases", "export-cases"}));
+  command
+      ->add_option("--data", options->data,
+                   "folder that `faceprobe synth` wrote; for cases: with one folder a case, see docs/cases.md; "
+                   "default: none, it has to be named")
+      ->type_name("DIR");
   command
       ->add_option(
           "--weights", options->weights,
           "networks to measure beside what needs none; default: none, or where a stage needs one, the program's")
       ->type_name("[NAME=]FILE");
-  command->add_option("--samples", options->samples, "photos, spread evenly over the data")->capture_default_str();
+  command->add_option("--samples", options->samples, "photos or cases, spread evenly over the data")
+      ->capture_default_str();
   command
       ->add_option("-o,--output", options->output,
-                   "folder for STAGE.csv, STAGE.json and a picture; default: nothing is written")
+                   "folder for STAGE.csv, STAGE.json and a picture; default: nothing is written, but for cases and "
+                   "export-cases, which need one")
       ->type_name("DIR");
   command->add_option("--rows", options->rows, "photos in that picture")->capture_default_str()->check(CLI::Range(1, 200));
   command
-      ->add_option(
-          "--object", options->object,
-          "for relight, an OBJ file to put in the light, default: a sphere; for insert, a shape or a model file, "
-          "default: spheres")
+      ->add_option("--object", options->object,
+                   "for relight and cases, an OBJ file to put in the light, default: a sphere; for insert, a shape or "
+                   "a model file, default: spheres")
       ->type_name("FILE");
   command
-      ->add_option("--scenes", options->scenes,
-                   "for relight: CSV that names the maps indoor or outdoor; default: they are not told apart")
+      ->add_option(
+          "--scenes", options->scenes,
+          "for relight and export-cases: CSV that names the maps indoor or outdoor; default: they are not told "
+          "apart")
       ->type_name("FILE");
   command
       ->add_option("--training", options->training,
@@ -69,11 +84,22 @@ void add_eval(CLI::App& program, Action& action) {
                    "traced; default: no such rows")
       ->type_name("DIR");
   command
-      ->add_option(
-          "--prior-weights", options->prior,
-          "for relight, insert, triangulate: weights of the light prior; default: those that come with the program")
+      ->add_option("--prior-weights", options->prior,
+                   "for relight, insert, triangulate, cases: weights of the light prior; default: those that come with "
+                   "the program")
       ->type_name("FILE");
   command->add_flag("--ablation", options->ablation, "for relight: rows with normals or layers known");
+  command
+      ->add_option(
+          "--method", options->methods,
+          "for cases, again and again: a program to measure, run once a case without a shell, with the paths of "
+          "the case and of a folder for its files in the place of {case} and {out}; default: ours and ambient "
+          "light alone")
+      ->type_name("NAME=COMMAND")
+      ->allow_extra_args(false);
+  command->add_option("--seconds", options->seconds, "for cases: time that such a program has for one")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 86400));
   command->add_option("--device", options->device, "for highlight: what computes; cuda:N is one of several cards")
       ->type_name("{auto,cpu,cuda}")
       ->capture_default_str();
@@ -81,8 +107,13 @@ void add_eval(CLI::App& program, Action& action) {
   command->footer(
       "Prints Markdown.\n\nExamples:\n  faceprobe eval highlight --data faces/dev --weights run/weights.safetensors -o "
       "out\n"
-      "  faceprobe eval relight --data faces/dev --scenes scenes.csv");
-  command->callback([options, &action] { action = [options] { return run(*options); }; });
+      "  faceprobe eval relight --data faces/dev --scenes scenes.csv\n"
+      "  faceprobe eval export-cases --data faces/dev --samples 20 -o cases\n"
+      "  faceprobe eval cases --data cases --method \"mine=python3 mine.py {case} {out}\" -o out");
+  const CLI::App* paper = add_eval_paper(*command, action);
+  command->callback([options, paper, &action] {
+    if (!paper->parsed()) action = [options] { return run(*options); };
+  });
 }
 
 }  // namespace faceprobe::cli

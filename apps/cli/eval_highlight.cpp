@@ -1,40 +1,14 @@
 #include "eval_stages.h"
 #include "faceprobe/eval/highlight_benchmark.h"
-#include "faceprobe/highlight/separate.h"
 #include "faceprobe/io/atomic_file.h"
 #include "faceprobe/io/picture_file.h"
-#include "faceprobe/net/both_ways.h"
-#include "faceprobe/net/face_net.h"
-#include "faceprobe/net/torch_highlight_net.h"
+#include "highlight_methods.h"
 
 #include <spdlog/fmt/fmt.h>
-
-#include <memory>
 
 namespace faceprobe::cli {
 
 namespace {
-
-eval::HighlightMethod classical(highlight::Separator separator, int threads) {
-  return {std::string(highlight::separator_name(separator)), [separator, threads](const eval::PhotoInput& input) {
-            return highlight::separate(input.linear, input.mask, {.separator = separator, .threads = threads}).highlight;
-          }};
-}
-
-eval::HighlightMethod network(const std::string& named, const net::TorchHighlightNetOptions& options) {
-  const auto [name, file] = name_and_file(named);
-  // Both ways, as estimate does.
-  if (net::read_model_info(file).architecture == net::kFaceArchitecture) {
-    auto face = std::make_shared<net::FaceNet>(file, net::FaceNetOptions{.threads = options.threads});
-    return {name, [face](const eval::PhotoInput& input) {
-              return face->layers_both_ways(input.linear, input.clip, input.mask, input.mesh_normal_cam).highlight;
-            }};
-  }
-  auto net = std::make_shared<net::TorchHighlightNet>(file, options);
-  return {name, [net](const eval::PhotoInput& input) {
-            return net::highlight_both_ways(*net, input.linear, input.clip, input.mask);
-          }};
-}
 
 std::string report(const eval::ScoreTable& table, const EvalOptions& options) {
   std::string text;
@@ -67,13 +41,10 @@ std::string report(const eval::ScoreTable& table, const EvalOptions& options) {
 
 int eval_highlight(const EvalOptions& options) {
   const synth::ShardReader faces(options.data);
-  std::vector<eval::HighlightMethod> methods = {eval::black_method()};
-  for (const highlight::Separator separator :
-       {highlight::Separator::kTan, highlight::Separator::kYang, highlight::Separator::kShen})
-    methods.push_back(classical(separator, options.threads));
-  const net::TorchHighlightNetOptions net_options{.threads = options.threads,
-                                                  .device = net::device_from_name(options.device)};
-  for (const std::string& weights : options.weights) methods.push_back(network(weights, net_options));
+  std::vector<eval::HighlightMethod> methods = classical_highlight_methods(options.threads);
+  const net::Device device = net::device_from_name(options.device);
+  for (const std::string& weights : options.weights)
+    methods.push_back(network_highlight_method(weights, device, options.threads));
   const eval::ScoreTable table = eval::measure_highlights(
       faces, methods, {.samples = options.samples, .threads = options.threads, .progress = eval_progress()});
   fmt::print("{}", report(table, options));

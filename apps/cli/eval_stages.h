@@ -1,6 +1,9 @@
 #pragma once
 // The stages that `faceprobe eval` measures, one file each: they print Markdown and write what --output asks for.
 
+#include "faceprobe/eval/score_table.h"
+#include "faceprobe/synth/shard.h"
+
 #include <functional>
 #include <string>
 #include <utility>
@@ -23,6 +26,9 @@ struct EvalOptions {
   std::string training;  // folder whose mean light is a row
   std::string prior;     // weights of the light prior; empty = those that come with the program
   bool ablation = false;
+  // Of the stage cases.
+  std::vector<std::string> methods;  // NAME=COMMAND
+  int seconds = 120;                 // for a program and case
 };
 
 int eval_highlight(const EvalOptions& options);
@@ -31,6 +37,12 @@ int eval_shading(const EvalOptions& options);
 int eval_relight(const EvalOptions& options);
 int eval_insert(const EvalOptions& options);
 int eval_triangulate(const EvalOptions& options);
+int eval_cases(const EvalOptions& options);
+int eval_export_cases(const EvalOptions& options);
+
+// The figures of eval_triangulate, without printing them.
+eval::ScoreTable measure_lamps(const synth::ShardReader& groups, const EvalOptions& options,
+                               const std::function<void(int done, int total)>& progress);
 
 // NAME=FILE as that pair; of FILE alone its stem is the name.
 std::pair<std::string, std::string> name_and_file(const std::string& named);

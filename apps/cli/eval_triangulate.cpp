@@ -49,10 +49,15 @@ eval::LookAtGroup estimate_of(const EvalOptions& options) {
 
 }  // namespace
 
+eval::ScoreTable measure_lamps(const synth::ShardReader& groups, const EvalOptions& options,
+                               const std::function<void(int, int)>& progress) {
+  return eval::measure_rooms(groups, estimate_of(options),
+                             {.samples = options.samples, .triangulate = {}, .progress = progress});
+}
+
 int eval_triangulate(const EvalOptions& options) {
   const synth::ShardReader groups(options.data);
-  const eval::ScoreTable table = eval::measure_rooms(
-      groups, estimate_of(options), {.samples = options.samples, .triangulate = {}, .progress = eval_progress()});
+  const eval::ScoreTable table = measure_lamps(groups, options, eval_progress());
   fmt::print("Up to {} photos of {}.\n", options.samples, options.data);
   fmt::print("\n### Share of the faces that were found, in photos where two were\n\n{}",
              table.markdown("face_found", 2));

@@ -9,6 +9,7 @@
 #include "faceprobe/pipeline/estimate.h"
 #include "faceprobe/pipeline/observe.h"
 #include "faceprobe/synth/traced.h"
+#include "shared_estimate.h"
 
 #include <optional>
 #include <utility>
@@ -19,63 +20,7 @@ namespace {
 
 using pipeline::EstimateOptions;
 using pipeline::FaceEstimate;
-
-// The estimate of the photo at hand: several rows ask for it, one after the other.
-class Shared {
- public:
-  explicit Shared(EstimateOptions options) : estimator_(std::move(options)) {}
-
-  const EstimateOptions& options() const { return estimator_.options(); }
-  lighting::Light light_of(const lighting::Observations& o) const { return estimator_.light_of(o); }
-  // Nothing where no face is found.
-  const FaceEstimate* of(const eval::LightInput& input) {
-    if (known_ != input.number) {
-      known_ = input.number;
-      found_.reset();
-      try {
-        pipeline::Estimate estimate = estimator_.estimate(io::photo_from_srgb(input.photo.photo));
-        found_ = std::move(estimate.faces[estimate.largest]);
-      } catch (const Error& error) {
-        if (error.code() != ExitCode::kNoFace) throw;
-      }
-    }
-    return found_ ? &*found_ : nullptr;
-  }
-
- private:
-  pipeline::Estimator estimator_;
-  std::optional<FaceEstimate> found_;
-  int known_ = -1;
-};
-using SharedPtr = std::shared_ptr<Shared>;
-
-EstimateOptions estimate_options(const RelightRows& rows) {
-  constexpr int kLeastFacePx = 30;  // in pictures of 128
-  EstimateOptions options;
-  options.weights = rows.weights;
-  options.prior_weights = rows.prior;
-  options.finder.min_face_px = kLeastFacePx;
-  options.solve.nside = rows.nside;
-  options.solve.threads = rows.threads;
-  options.threads = rows.threads;
-  return options;
-}
-
-eval::LightMethod whole(const std::string& name, const SharedPtr& shared) {
-  return {name, [shared](const eval::LightInput& input) {
-            const FaceEstimate* face = shared->of(input);
-            return face == nullptr ? Eigen::MatrixX3f() : face->light.radiance;
-          }};
-}
-
-// The same observations, another way from them to the light.
-template <class Solve>
-eval::LightMethod other_solver(const std::string& name, const SharedPtr& shared, const Solve& solve) {
-  return {name, [shared, solve](const eval::LightInput& input) {
-            const FaceEstimate* face = shared->of(input);
-            return face == nullptr ? Eigen::MatrixX3f() : Eigen::MatrixX3f(solve(face->observations));
-          }};
-}
+using SharedPtr = std::shared_ptr<SharedEstimate>;
 
 // One lamp where the brightest highlight's mirror direction points, and an even surround, as strong as fit the shading best.
 Eigen::MatrixX3f brightest_spot(const lighting::Observations& o, const SphereGrid& grid) {
@@ -205,7 +150,7 @@ eval::LightMethod by_joint_estimate(const SharedPtr& shared, const std::shared_p
 }  // namespace
 
 std::vector<eval::LightMethod> insert_methods(const RelightRows& rows) {
-  const auto shared = std::make_shared<Shared>(estimate_options(rows));
+  const auto shared = std::make_shared<SharedEstimate>(estimate_options(rows));
   const auto grid = std::make_shared<SphereGrid>(rows.nside);
   return {whole("transport", shared), without_prior(shared), by_paper(shared), by_harmonics(shared, grid),
           other_solver("ambient, as bright as the shading", shared, [grid](const lighting::Observations& o) {
@@ -216,7 +161,7 @@ std::vector<eval::LightMethod> insert_methods(const RelightRows& rows) {
 
 std::vector<eval::LightMethod> relight_methods(const RelightRows& rows) {
   const EstimateOptions options = estimate_options(rows);
-  const auto shared = std::make_shared<Shared>(options);
+  const auto shared = std::make_shared<SharedEstimate>(options);
   const auto grid = std::make_shared<SphereGrid>(rows.nside);
   std::vector<eval::LightMethod> methods;
   methods.push_back(whole("transport", shared));
@@ -226,7 +171,7 @@ std::vector<eval::LightMethod> relight_methods(const RelightRows& rows) {
   if (rows.ablation) {
     EstimateOptions mesh = options;
     mesh.normals = pipeline::NormalSource::kMesh;
-    methods.push_back(whole("normals of the mesh", std::make_shared<Shared>(mesh)));
+    methods.push_back(whole("normals of the mesh", std::make_shared<SharedEstimate>(mesh)));
     methods.push_back(partly_known("normals known", shared, true, false));
     methods.push_back(partly_known("layers known", shared, false, true));
   }

@@ -37,17 +37,18 @@ std::size_t column(const std::vector<std::string>& head, const std::string& name
 
 }  // namespace
 
-std::function<std::string(int map)> scene_of_maps(const std::filesystem::path& table, const std::string& recipe) {
+std::function<std::string(int map)> scene_of_maps(const std::filesystem::path& table, const std::string& recipe,
+                                                  const std::string& kind) {
   std::ifstream file(table);
   std::string line;
   if (!std::getline(file, line)) throw Error(ExitCode::kInput, table.string() + " cannot be read, or is empty.");
   const std::vector<std::string> head = fields(line);
   const std::size_t name = column(head, "name", table);
-  const std::size_t folder = column(head, "folder", table);
+  const std::size_t scene_kind = column(head, kind, table);
   std::map<std::string, std::string> scene;
   while (std::getline(file, line)) {
     const std::vector<std::string> record = fields(line);
-    if (record.size() > std::max(name, folder)) scene[record[name]] = record[folder];
+    if (record.size() > std::max(name, scene_kind)) scene[record[name]] = record[scene_kind];
   }
   std::vector<std::string> of_map;
   const nlohmann::json json = nlohmann::json::parse(recipe, nullptr, false);

@@ -1,15 +1,9 @@
 #include "commands.h"
-#include "faceprobe/assets/heads.h"
-#include "faceprobe/assets/maps.h"
-#include "faceprobe/assets/reflectance_statistics.h"
-#include "faceprobe/assets/skins.h"
 #include "faceprobe/core/error.h"
-#include "faceprobe/core/parallel.h"
 #include "faceprobe/io/picture_file.h"
 #include "faceprobe/synth/contact_sheet.h"
 #include "faceprobe/synth/generate.h"
-#include "faceprobe/synth/procedural_head.h"
-#include "faceprobe/synth/procedural_maps.h"
+#include "synth_assets.h"
 
 #include <malloc.h>
 #include <spdlog/spdlog.h>
@@ -23,10 +17,7 @@ namespace faceprobe::cli {
 namespace {
 
 struct Options {
-  std::vector<std::string> heads;
-  std::string skins;
-  std::string maps;
-  std::string reflectance;
+  SynthSources sources;
   std::string output = "faces";
   std::string preview;
   std::string mode = "default";
@@ -36,31 +27,6 @@ struct Options {
   bool json = false;
   synth::Recipe recipe;
 };
-
-synth::Assets load_assets(const Options& options) {
-  synth::Assets assets;
-  for (const std::string& path : options.heads) {
-    for (synth::HeadModel& model : assets::load_heads(path)) assets.heads.push_back(std::move(model));
-  }
-  if (assets.heads.empty()) assets.heads.push_back(synth::procedural_head());
-  if (!options.skins.empty()) {
-    for (auto& [name, picture] : assets::load_skins(options.skins)) {
-      assets.skins.push_back(synth::prepare_texture(name, std::move(picture)));
-    }
-  }
-  if (!options.reflectance.empty())
-    assets.reflectance = assets::skin_statistics(assets::load_reflectance_statistics(options.reflectance));
-  const std::vector<std::pair<std::string, EnvMap>> maps =
-      options.maps.empty() ? synth::procedural_maps() : assets::load_maps(options.maps);
-  assets.maps.resize(maps.size());
-  parallel_for(static_cast<int>(maps.size()), options.threads, [&](int first, int last) {
-    for (int i = first; i < last; ++i) {
-      const auto& [name, map] = maps[static_cast<std::size_t>(i)];
-      assets.maps[static_cast<std::size_t>(i)] = synth::prepare_map(name, map, {});
-    }
-  });
-  return assets;
-}
 
 // A line that writes over itself on a terminal, one in ten seconds elsewhere.
 class Progress {
@@ -115,7 +81,8 @@ int run(Options options) {
   // them would be cleared and mapped again each time, a tenth of the run.
   mallopt(M_MMAP_THRESHOLD, 256 << 20);
   mallopt(M_TRIM_THRESHOLD, 1 << 30);
-  const synth::Assets assets = load_assets(options);
+  options.sources.threads = options.threads;
+  const synth::Assets assets = load_synth_assets(options.sources);
   Progress progress;
   const synth::DatasetReport report =
       synth::generate_dataset(assets, options.recipe, options.output, {.threads = options.threads},
@@ -147,18 +114,19 @@ void add_synth(CLI::App& program, Action& action) {
       program.add_subcommand("synth", "synthetic faces with every layer known, for training and measuring");
   synth::Recipe& recipe = options->recipe;
   command
-      ->add_option("--heads", options->heads,
+      ->add_option("--heads", options->sources.heads,
                    "head models: an ICT-FaceKit folder, Basel .mat or .h5, .obj; default: a small built-in head")
       ->type_name("PATH");
   command
-      ->add_option("--skins", options->skins,
+      ->add_option("--skins", options->sources.skins,
                    "folder of skin textures in the head's UVs; default: skin made without a picture")
       ->type_name("DIR");
   command
-      ->add_option("--maps", options->maps, "folder of HDR environment maps, .hdr or .exr; default: a few built-in ones")
+      ->add_option("--maps", options->sources.maps,
+                   "folder of HDR environment maps, .hdr or .exr; default: a few built-in ones")
       ->type_name("DIR");
   command
-      ->add_option("--reflectance", options->reflectance,
+      ->add_option("--reflectance", options->sources.reflectance,
                    "measured skin reflectance (MERL/ETH ts_data.mat); default: a built-in estimate")
       ->type_name("FILE");
   command->add_option("--count", recipe.count, "samples to make")->capture_default_str();

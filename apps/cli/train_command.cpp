@@ -4,6 +4,8 @@
 #include "faceprobe/io/picture_file.h"
 #include "faceprobe/train/train.h"
 #include "train_light_command.h"
+#include "train_regressor_command.h"
+#include "train_sky_command.h"
 
 #include <spdlog/spdlog.h>
 
@@ -20,6 +22,7 @@ struct Options {
   std::string net = "highlight";
   std::string config;
   std::string device = "auto";
+  std::vector<std::string> scenes;
   bool json = false;
   train::TrainRun run;
 };
@@ -47,8 +50,11 @@ void log_row(const train::TrainProgress& progress) {
 }
 
 int run(Options options) {
-  if (options.net == "light")
-    return train_light(options.run, options.config.empty() ? std::string() : read_text(options.config));
+  const auto config_text = [&] { return options.config.empty() ? std::string() : read_text(options.config); };
+  if (options.net == "light") return train_light(options.run, config_text());
+  if (options.net == "gardner") return train_gardner(options.run, config_text());
+  if (options.net == "legendre") return train_legendre(options.run, config_text());
+  if (options.net == "sky") return train_sky(options.run, config_text(), options.scenes);
   if (!options.config.empty()) options.run.config = train::train_config_from_json(read_text(options.config));
   train::TrainConfig& config = options.run.config;
   if (options.config.empty() && options.net == "face") config.architecture = "face";
@@ -83,16 +89,24 @@ int run(Options options) {
 void add_train(CLI::App& program, Action& action) {
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand("train", "trains a network on synthetic faces");
-  command->add_option("NET", options->net, "which network")
+  command->add_option("NET", options->net, "which network; gardner, legendre and sky are rivals to measure against")
       ->required()
-      ->check(CLI::IsMember({"highlight", "face", "light"}));
+      ->check(CLI::IsMember({"highlight", "face", "light", "gardner", "legendre", "sky"}));
   command->add_option("--config", options->config, "training config, JSON; default: the built-in one")
       ->check(CLI::ExistingFile);
-  command->add_option("--data", options->run.data, "folder that `faceprobe synth` wrote")->type_name("DIR")->required();
+  command->add_option("--data", options->run.data, "folder that `faceprobe synth` wrote; of maps for gardner and sky")
+      ->type_name("DIR")
+      ->required();
   command
       ->add_option("--validation", options->run.validation_data,
-                   "such a folder of other people, to measure on; default: nothing is measured")
+                   "such a folder of other people or maps, to measure on; default: nothing is measured")
       ->type_name("DIR");
+  command
+      ->add_option("--scenes", options->scenes,
+                   "sky: tables that say which maps are outdoor and by day, CSV with columns name, folder and scene; "
+                   "default: all are")
+      ->type_name("FILE")
+      ->check(CLI::ExistingFile);
   command->add_option("--start", options->run.start, "weights to begin with; default: drawn at random")
       ->type_name("FILE");
   command->add_option("-o,--output", options->run.folder, "folder for checkpoint, log, pictures and weights")

@@ -36,6 +36,47 @@ Image picture_times(const Image& image, float factor) {
   return out;
 }
 
+// Three equal channels, each the mean of what they were.
+Image averaged(const Image& image) {
+  Image out = image;
+  for (std::size_t i = 0; i < out.values().size(); i += 3) {
+    float* pixel = out.data() + i;
+    pixel[0] = pixel[1] = pixel[2] = (pixel[0] + pixel[1] + pixel[2]) / 3;
+  }
+  return out;
+}
+
+// The photo as a grey one, and what is true of it.
+SyntheticPhoto made_grey(SyntheticPhoto photo) {
+  photo.layers.linear = averaged(photo.layers.linear);
+  photo.layers.highlight = averaged(photo.layers.highlight);
+  photo.sample.photo = encode_srgb(photo.layers.linear);
+  return photo;
+}
+
+void add_rows(ScoreTable& table, int number, const SyntheticPhoto& photo, const std::vector<HighlightMethod>& methods,
+              const HighlightBenchmark& options) {
+  const std::map<std::string, std::string> groups = groups_of(photo);
+  const Image& truth = photo.layers.highlight;
+  for (const HighlightMethod& method : methods) {
+    Image masked = method.highlight(photo.input());
+    Image whole = method.highlight(photo.whole_input());
+    if (options.grey) {
+      masked = averaged(masked);
+      whole = averaged(whole);
+    }
+    const double error = rmse(masked, truth, photo.skin, options.threads);
+    table.add({method.name,
+               std::to_string(number),
+               groups,
+               {{"rmse_skin", error},
+                {"psnr_skin", psnr_of_rmse(error)},
+                {"ssim_skin", ssim(masked, truth, photo.skin, options.threads)},
+                {"rmse_whole", rmse(whole, truth, {}, options.threads)},
+                {"ssim_whole", ssim(whole, truth, {}, options.threads)}}});
+  }
+}
+
 }  // namespace
 
 HighlightMethod black_method() {
@@ -55,18 +96,10 @@ ScoreTable measure_highlights(const synth::ShardReader& faces, const std::vector
   table.order_labels("clipped", {"none", "under 5 %", "5 % and more"});
   table.order_labels("size", {"under 15 %", "15 to 25 %", "25 % and more"});
   visit_photos(faces, options.samples, options.progress, [&](int number, const SyntheticPhoto& photo) {
-    const std::map<std::string, std::string> groups = groups_of(photo);
-    for (const HighlightMethod& method : methods) {
-      const Image masked = method.highlight(photo.input());
-      const Image whole = method.highlight(photo.whole_input());
-      const Image& truth = photo.layers.highlight;
-      table.add({method.name,
-                 std::to_string(number),
-                 groups,
-                 {{"rmse_skin", rmse(masked, truth, photo.skin, options.threads)},
-                  {"ssim_skin", ssim(masked, truth, photo.skin, options.threads)},
-                  {"rmse_whole", rmse(whole, truth, {}, options.threads)},
-                  {"ssim_whole", ssim(whole, truth, {}, options.threads)}}});
+    if (options.grey) {
+      add_rows(table, number, made_grey(photo), methods, options);
+    } else {
+      add_rows(table, number, photo, methods, options);
     }
   });
   return table;

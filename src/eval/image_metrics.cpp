@@ -41,6 +41,8 @@ double rmse(const Image& estimate, const Image& truth, const ByteImage& mask, in
   return 255 * root_mean_square(estimate, truth, mask, threads, 1);
 }
 
+double psnr_of_rmse(double rmse_255) { return 20 * std::log10(255 / rmse_255); }
+
 double si_rmse(const Image& estimate, const Image& truth, const ByteImage& mask, int threads) {
   check_pictures("si_rmse", estimate, truth, mask);
   const Partial cross = sum_values(estimate, truth, mask, threads, [](double e, double t) { return e * t; });

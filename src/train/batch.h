@@ -15,7 +15,7 @@
 
 namespace faceprobe::train {
 
-// What the face network is given and is to find beside the highlights; undefined tensors for the others.
+// What the face network is given and is to find beside the highlights, and shi learns the shading from; undefined tensors for the others.
 struct SurfaceBatch {
   torch::Tensor mesh;     // N x 3 x H x W: normals of the mesh that was found, 0 off it; given to the network
   torch::Tensor normal;   // N x 3 x H x W, camera frame; of any length
@@ -35,10 +35,10 @@ struct Batch {
   torch::Tensor mask;         // N x 1 x H x W of 0 and 1
   torch::Tensor highlight;    // N x 3 x H x W
   torch::Tensor skin;         // N x 1 x H x W of 0 and 1: where errors count whole
-  SurfaceBatch surface = {};  // for the face network alone
+  SurfaceBatch surface = {};  // for the face network and shi
 };
 
-// Throws Error(kInput) when the config's network is given meshes that the data do not have.
+// Throws Error(kInput) when the data lack the meshes, or the shading, that the config's network is trained with.
 void require_meshes(const synth::ShardReader& reader, const std::filesystem::path& folder, const TrainConfig& config);
 
 // Samples without changes by chance, for validation.

@@ -84,8 +84,8 @@ std::string TrainConfig::validate() const {
     }
   });
   if (!problem.empty()) return problem;
-  if (architecture != "unet" && architecture != "face" && architecture != "mscr") {
-    return "The training config's architecture is \"" + architecture + "\"; there are unet, face and mscr.";
+  if (architecture != "unet" && architecture != "face" && architecture != "mscr" && architecture != "shi") {
+    return "The training config's architecture is \"" + architecture + "\"; there are unet, face, mscr and shi.";
   }
   if (picture_px != 0 && (picture_px < 8 || architecture != "face")) {
     return "The training config's picture_px is " + std::to_string(picture_px) + " for the architecture \"" +

@@ -7,9 +7,11 @@
 #include "net/head.h"
 #include "net/torch/highlight_head.h"
 #include "net/torch/mscr.h"
+#include "net/torch/shi.h"
 #include "net/torch/unet.h"
 #include "train/face_loss.h"
 #include "train/loss.h"
+#include "train/shi_loss.h"
 
 #include <nlohmann/json.hpp>
 
@@ -94,12 +96,28 @@ Model mscr_model(const std::string& given) {
   return model;
 }
 
+Model shi_model(const std::string& given) {
+  const auto options = read_options(net::shi_options_from_json, merged(net::options_json(net::ShiOptions{}), given));
+  net::Shi shi(options);
+  auto layers = [shi](const Batch& batch) mutable { return shi->forward(net::shi_input(batch.linear)); };
+  Model model;
+  model.module = shi.ptr();
+  model.forward = [layers](const Batch& batch) mutable { return layers(batch).highlight; };
+  model.highlight = [layers](const Batch& batch) mutable {
+    return torch::minimum(layers(batch).highlight.clamp_min(0), batch.linear);
+  };
+  model.loss = [layers](const Batch& batch, const LossConfig&) mutable { return shi_loss(layers(batch), batch); };
+  model.metadata = {{net::kArchitectureKey, net::kShiArchitecture}, {net::kOptionsKey, net::options_json(options)}};
+  return model;
+}
+
 }  // namespace
 
 bool finds_surface(const TrainConfig& config) { return config.architecture == net::kFaceArchitecture; }
 
 Model make_model(const TrainConfig& config) {
   if (config.architecture == net::kMscrArchitecture) return mscr_model(config.network);
+  if (config.architecture == net::kShiArchitecture) return shi_model(config.network);
   Model model = unet_model(config.network, finds_surface(config));
   if (const auto unet = std::dynamic_pointer_cast<net::UNetImpl>(model.module);
       config.picture_px % unet->multiple() != 0) {

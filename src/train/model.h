@@ -16,7 +16,7 @@ namespace faceprobe::train {
 
 struct Model {
   std::shared_ptr<torch::nn::Module> module;
-  // For the loss: the layer as it comes. Bounded for the U-Net, raw for MSCR, which is trained on what it says (paper Sec. 3.1).
+  // For the loss: the layer as it comes. Bounded for the U-Net, raw for MSCR, which is trained on what it says (paper Sec. 3.1), and Shi.
   std::function<torch::Tensor(const Batch&)> forward;
   // For use: within the picture, 0 <= H <= I.
   std::function<torch::Tensor(const Batch&)> highlight;

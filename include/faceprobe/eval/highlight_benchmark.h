@@ -29,13 +29,16 @@ HighlightMethod black_method();
 
 struct HighlightBenchmark {
   int samples = 100;  // spread evenly over the data set; those that show less than 5 % skin are left out
+  // Photos made grey before a method sees them: three equal channels in, the mean of three out, against the mean of the true layer's (paper,
+  // Sec. 5.2).
+  bool grey = false;
   int threads = 0;
   std::function<void(int done, int total)> progress = {};
 
   std::string validate() const;
 };
 
-// Metrics of each row: rmse_skin, ssim_skin, rmse_whole, ssim_whole (image_metrics.h, 0-255). Groups: tone (skin_tone.h, of the true
+// Metrics of each row: rmse_skin, psnr_skin, ssim_skin, rmse_whole, ssim_whole (image_metrics.h, 0-255). Groups: tone (skin_tone.h, of the true
 // albedo), clipped (share of the face's skin), size (of the face's skin in the crop). Throws Error(kUsage) for options that do not
 // validate.
 ScoreTable measure_highlights(const synth::ShardReader& faces, const std::vector<HighlightMethod>& methods,

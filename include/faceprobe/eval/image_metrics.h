@@ -20,6 +20,9 @@ namespace faceprobe::eval {
 // Root of the mean over pixels and channels of (255 (estimate - truth))^2.
 double rmse(const Image& estimate, const Image& truth, const ByteImage& mask = {}, int threads = 0);
 
+// Peak signal-to-noise ratio in decibels of that error on the 0-255 scale: 20 lg(255 / rmse); infinite for no error.
+double psnr_of_rmse(double rmse_255);
+
 // Mean structural similarity (Wang et al. 2004, "Image quality assessment: from error visibility to structural similarity",
 // IEEE TIP 13): Gaussian window of 11 x 11 pixels and sigma 1.5, K1 = .01, K2 = .03, for layers in [0, 1] (L = 1), mean over
 // channels, no downsampling. A window counts when it lies whole inside the picture and its centre in the mask; it reads what

@@ -15,9 +15,9 @@ namespace faceprobe::io {
 // Full path of a data file such as "face_landmark.tflite". Throws Error(kModel) that names the folders searched and says to
 // run scripts/setup.sh.
 std::filesystem::path data_file(const std::string& name);
-// The folders that are searched, first to last; they need not exist.
 // A file or folder of that name in the first data folder that has one; empty where none has.
 std::filesystem::path find_data(const std::string& name);
+// The folders that are searched, first to last; they need not exist.
 std::vector<std::filesystem::path> data_folders();
 
 // The whole file. Throws Error(kInput) when it cannot be read, is no regular file or is longer than max_bytes.

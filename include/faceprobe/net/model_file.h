@@ -18,9 +18,10 @@ inline constexpr const char* kPictureKey = "picture_px";  // side of the views i
 inline constexpr const char* kUNetArchitecture = "unet";
 inline constexpr const char* kFaceArchitecture = "face";
 inline constexpr const char* kMscrArchitecture = "mscr";
+inline constexpr const char* kShiArchitecture = "shi";
 
 struct ModelInfo {
-  std::string architecture;                     // "unet", "face", "mscr" or "light"
+  std::string architecture;                     // "unet", "face", "mscr", "shi" or "light"
   std::string options_json;                     // of that network
   std::string sha256;                           // of the file, hex
   std::int64_t parameter_count = 0;             // numbers in all tensors

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace faceprobe::bench {
+namespace faceprobe::cli {
 
 struct CsvTable {
   std::vector<std::string> header;
@@ -18,4 +18,4 @@ struct CsvTable {
 // Throws Error(kInput) when the file cannot be read or a row has another length than the header.
 CsvTable read_csv(const std::filesystem::path& path);
 
-}  // namespace faceprobe::bench
+}  // namespace faceprobe::cli

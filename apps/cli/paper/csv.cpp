@@ -1,4 +1,4 @@
-#include "support/csv.h"
+#include "paper/csv.h"
 
 #include "faceprobe/core/error.h"
 
@@ -6,7 +6,7 @@
 #include <fstream>
 #include <sstream>
 
-namespace faceprobe::bench {
+namespace faceprobe::cli {
 
 namespace {
 
@@ -44,4 +44,4 @@ CsvTable read_csv(const std::filesystem::path& path) {
   return table;
 }
 
-}  // namespace faceprobe::bench
+}  // namespace faceprobe::cli

@@ -1,5 +1,5 @@
 #pragma once
-// The directions that an estimated light amounts to, as the direction benchmarks compare them with known lights.
+// The directions that an estimated light amounts to, as they are compared with known lights.
 
 #include "faceprobe/pipeline/estimate.h"
 
@@ -7,7 +7,10 @@
 #include <optional>
 #include <vector>
 
-namespace faceprobe::bench {
+namespace faceprobe::cli {
+
+// Of each cell of the light's grid.
+Eigen::VectorXd luminances(const lighting::Light& light);
 
 // Unit vectors towards the main lights, strongest first; towards the brightest cell alone when there is no main light. Empty for
 // an even sky, which says nothing about direction.
@@ -26,4 +29,8 @@ std::optional<Eigen::Vector3d> mean_direction(const std::vector<Eigen::Vector3d>
 // Smallest angle to one of the candidates (at least one), in degrees.
 double nearest_deg(const Eigen::Vector3d& direction, const std::vector<Eigen::Vector3d>& candidates);
 
-}  // namespace faceprobe::bench
+// For each map its mean correlation (Pearson, -1..1) with the maps of other people. `maps`: #cells x #maps. `person`: whose each is. NaN for an
+// even map and where there is nobody else. Their mean is that over all pairs of two people when each person has as many maps.
+std::vector<double> agreement_with_others(const Eigen::MatrixXd& maps, const std::vector<int>& person);
+
+}  // namespace faceprobe::cli

@@ -1,4 +1,4 @@
-#include "support/light_direction.h"
+#include "paper/light_direction.h"
 
 #include "faceprobe/core/angles.h"
 #include "faceprobe/core/color.h"
@@ -7,20 +7,15 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
-namespace faceprobe::bench {
+namespace faceprobe::cli {
 
 namespace {
 
-SphereGrid grid_of(const lighting::Light& light) { return SphereGrid::of_cells(light.radiance.rows()); }
+constexpr double kNoAgreement = std::numeric_limits<double>::quiet_NaN();
 
-Eigen::VectorXd luminances(const lighting::Light& light) {
-  Eigen::VectorXd values(light.radiance.rows());
-  for (Eigen::Index i = 0; i < values.size(); ++i) {
-    values[i] = luminance(light.radiance(i, 0), light.radiance(i, 1), light.radiance(i, 2));
-  }
-  return values;
-}
+SphereGrid grid_of(const lighting::Light& light) { return SphereGrid::of_cells(light.radiance.rows()); }
 
 // An even sky has no direction: its brightest cell is a rounding error.
 bool is_even(const Eigen::VectorXd& luminance) {
@@ -33,6 +28,14 @@ std::optional<Eigen::Vector3d> unit(const Eigen::Vector3d& sum) {
 }
 
 }  // namespace
+
+Eigen::VectorXd luminances(const lighting::Light& light) {
+  Eigen::VectorXd values(light.radiance.rows());
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    values[i] = luminance(light.radiance(i, 0), light.radiance(i, 1), light.radiance(i, 2));
+  }
+  return values;
+}
 
 std::vector<Eigen::Vector3d> light_directions(const pipeline::LightResult& result) {
   std::vector<Eigen::Vector3d> directions;
@@ -83,4 +86,26 @@ double nearest_deg(const Eigen::Vector3d& direction, const std::vector<Eigen::Ve
   return nearest;
 }
 
-}  // namespace faceprobe::bench
+std::vector<double> agreement_with_others(const Eigen::MatrixXd& maps, const std::vector<int>& person) {
+  Eigen::MatrixXd unit_maps = maps.rowwise() - maps.colwise().mean();
+  for (Eigen::Index i = 0; i < maps.cols(); ++i) {
+    const bool even = is_even(maps.col(i));
+    unit_maps.col(i) = even ? Eigen::VectorXd::Constant(maps.rows(), kNoAgreement) : unit_maps.col(i).normalized();
+  }
+  const Eigen::MatrixXd correlation = unit_maps.transpose() * unit_maps;
+  std::vector<double> means;
+  for (Eigen::Index i = 0; i < maps.cols(); ++i) {
+    double sum = 0;
+    int others = 0;
+    for (Eigen::Index j = 0; j < maps.cols(); ++j) {
+      if (person[static_cast<std::size_t>(i)] == person[static_cast<std::size_t>(j)]) continue;
+      if (std::isnan(correlation(i, j))) continue;
+      sum += correlation(i, j);
+      ++others;
+    }
+    means.push_back(others > 0 ? sum / others : kNoAgreement);
+  }
+  return means;
+}
+
+}  // namespace faceprobe::cli

@@ -1,0 +1,74 @@
+#include "ablation_methods.h"
+
+#include "shared_estimate.h"
+
+#include <memory>
+
+namespace faceprobe::cli {
+
+namespace {
+
+using lighting::Observations;
+using pipeline::EstimateOptions;
+using SharedPtr = std::shared_ptr<SharedEstimate>;
+
+// Skin of one kind all over the face.
+Observations one_skin(Observations o) {
+  const float weight = o.weight.sum();
+  o.roughness.setConstant(o.roughness.dot(o.weight) / weight);
+  o.specular_albedo.setConstant(o.specular_albedo.dot(o.weight) / weight);
+  return o;
+}
+
+Observations without_horizon(Observations o) {
+  o.horizon.resize(0, 0);
+  return o;
+}
+
+// On a grid of its own, brought back to the others'.
+eval::LightMethod coarse(const std::string& name, EstimateOptions options, int nside) {
+  const auto to = std::make_shared<SphereGrid>(options.solve.nside);
+  options.solve.nside = nside;
+  const auto shared = std::make_shared<SharedEstimate>(options);
+  const auto from = std::make_shared<SphereGrid>(nside);
+  return {name, [shared, from, to](const eval::LightInput& input) {
+            const pipeline::FaceEstimate* face = shared->of(input);
+            return face == nullptr ? Eigen::MatrixX3f() : grid_from_grid(face->light.radiance, *from, *to);
+          }};
+}
+
+}  // namespace
+
+std::vector<eval::LightMethod> ablation_methods(const RelightRows& rows) {
+  const EstimateOptions base = estimate_options(rows);
+  const auto shared = std::make_shared<SharedEstimate>(base);
+  std::vector<eval::LightMethod> methods = {whole("as it is", shared)};
+  const auto changed = [&](const std::string& name, const auto& change) {
+    EstimateOptions options = base;
+    change(options);
+    methods.push_back(whole(name, std::make_shared<SharedEstimate>(options)));
+  };
+  changed("no learnt light to start from", [](EstimateOptions& o) { o.prior = pipeline::PriorSource::kSmooth; });
+  changed("highlights alone", [](EstimateOptions& o) { o.solve.shading_weight = 0; });
+  changed("shading alone", [](EstimateOptions& o) { o.solve.highlight_weight = 0; });
+  changed("highlights weighed as much as shading", [](EstimateOptions& o) { o.solve.highlight_weight = 1; });
+  changed("10 iterations", [](EstimateOptions& o) { o.solve.iterations = 10; });
+  changed("200 iterations", [](EstimateOptions& o) { o.solve.iterations = 200; });
+  methods.push_back(coarse("768 cells", base, 8));
+  changed("normals of the mesh", [](EstimateOptions& o) { o.normals = pipeline::NormalSource::kMesh; });
+  changed("one albedo a region", [](EstimateOptions& o) { o.shading = pipeline::ShadingSource::kRegions; });
+  changed("layers of Yang's separator", [](EstimateOptions& o) { o.classical = highlight::Separator::kYang; });
+  methods.push_back(other_solver("no cast shadows of the face itself", shared, [shared](const Observations& o) {
+    return shared->light_of(without_horizon(o)).radiance;
+  }));
+  methods.push_back(other_solver("one kind of skin for all regions", shared,
+                                 [shared](const Observations& o) { return shared->light_of(one_skin(o)).radiance; }));
+  changed("paper's solver", [](EstimateOptions& o) { o.solve.solver = lighting::Solver::kPaper; });
+  changed("paper's solver, 10 iterations", [](EstimateOptions& o) {
+    o.solve.solver = lighting::Solver::kPaper;
+    o.solve.iterations = 10;
+  });
+  return methods;
+}
+
+}  // namespace faceprobe::cli

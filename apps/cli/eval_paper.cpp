@@ -1,0 +1,133 @@
+#include "eval_paper.h"
+
+#include "faceprobe/core/error.h"
+#include "faceprobe/core/version.h"
+#include "faceprobe/io/atomic_file.h"
+#include "paper/plan.h"
+#include "paper/print_pdf.h"
+#include "paper/section_cache.h"
+
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <iterator>
+#include <memory>
+
+namespace faceprobe::cli {
+
+namespace {
+
+struct Part {
+  const char* name;
+  Sections (*measure)(const PaperPlan&);
+};
+constexpr std::array kParts = {Part{"highlights", highlight_sections}, Part{"objects", object_sections},
+                               Part{"relighting", relight_sections},   Part{"directions", direction_sections},
+                               Part{"triangulation", room_sections},   Part{"ablations", ablation_sections}};
+
+// How far a part is and how long it will take: a line that writes over itself on a terminal, one every half minute elsewhere.
+class PartProgress {
+ public:
+  explicit PartProgress(std::string part) : part_(std::move(part)) {}
+
+  void operator()(int done, int total) {
+    using std::chrono::duration;
+    constexpr double kEvery_s = 30;
+    const double seconds = duration<double>(std::chrono::steady_clock::now() - start_).count();
+    const double left = done > 0 ? seconds / done * (total - done) : 0;
+    const std::string line = fmt::format("{}: {} of {}, {:.0f} min left in it", part_, done, total, left / 60);
+    if (terminal_) {
+      fmt::print(stderr, "\r{}   {}", line, done == total ? "\n" : "");
+    } else if (seconds - told_s_ > kEvery_s) {
+      told_s_ = seconds;
+      spdlog::info(line);
+    }
+  }
+
+ private:
+  std::string part_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  double told_s_ = 0;
+  bool terminal_ = isatty(STDERR_FILENO) != 0;
+};
+
+// What synthetic faces are made of; nothing where they are all there.
+void require_data(const PaperPlan& plan) {
+  if (!plan.faces.empty() && !plan.light.empty() && !plan.groups.empty()) return;
+  for (const char* needed : {"faces/ict_facekit", "hdri/dev"}) {
+    if (!std::filesystem::is_directory(plan.data / needed)) {
+      throw Error(ExitCode::kInput, "There is no " + (plan.data / needed).string() +
+                                        ". --data names the folder that docs/data.md lays out.");
+    }
+  }
+}
+
+// What was measured, without anybody's folders.
+std::string made_with(const PaperPlan& plan) {
+  return fmt::format(
+      "Faceprobe {}. {} photos for highlights, {} for light, {} groups; synthetic faces of people, skins and lights "
+      "that no network was "
+      "trained on, photos and HDR maps as docs/data.md names them.{}",
+      kVersion, plan.highlight_photos(), plan.light_photos(), plan.group_photos(),
+      plan.quick ? " A quick run: too few photos to compare methods by." : "");
+}
+
+int run(PaperPlan plan) {
+  require_data(plan);
+  io::create_folder(plan.output);
+  plan.progress = PartProgress("synthetic faces");
+  make_paper_faces(plan);
+  const std::string key = key_of(plan);
+  eval::PaperReport report{.title = "Light from faces: the evaluation", .made_with = made_with(plan)};
+  for (std::size_t i = 0; i < kParts.size(); ++i) {
+    plan.progress = PartProgress(fmt::format("part {} of {}, {}", i + 1, kParts.size(), kParts[i].name));
+    Sections sections = cached_part(plan, key, kParts[i].name, kParts[i].measure);
+    std::move(sections.begin(), sections.end(), std::back_inserter(report.sections));
+    spdlog::info("part {} of {}, {}: done", i + 1, kParts.size(), kParts[i].name);
+  }
+  const std::filesystem::path html = plan.output / "report.html";
+  io::write_file_atomically(html, eval::report_html(report));
+  io::write_file_atomically(plan.output / "report.json", eval::report_json(report));
+  io::write_file_atomically(plan.output / "report.csv", eval::report_csv(report));
+  io::write_file_atomically(plan.output / "report.md", eval::report_markdown(report));
+  if (const std::string problem = print_pdf(html, plan.output / "report.pdf"); !problem.empty()) spdlog::warn(problem);
+  spdlog::info("wrote {}", html.string());
+  return 0;
+}
+
+}  // namespace
+
+CLI::App* add_eval_paper(CLI::App& eval, Action& action) {
+  auto plan = std::make_shared<PaperPlan>();
+  CLI::App* command = eval.add_subcommand("paper", "the paper's whole evaluation and its rivals as one report");
+  command->add_option("--data", plan->data, "the folder that docs/data.md lays out")->type_name("DIR")->required();
+  command->add_option("-o,--output", plan->output, "folder for the report, its cache and the synthetic faces")
+      ->type_name("DIR")
+      ->required();
+  command->add_flag("--quick", plan->quick, "few photos of each kind: a look in minutes, no figures to quote");
+  command
+      ->add_option("--faces", plan->faces, "synthetic faces of 128 px to measure on; default: made in the output folder")
+      ->type_name("DIR");
+  command->add_option("--light", plan->light, "synthetic faces of 256 px; default: made likewise")->type_name("DIR");
+  command->add_option("--groups", plan->groups, "synthetic groups; default: made likewise")->type_name("DIR");
+  command
+      ->add_option("--training", plan->training,
+                   "traced training faces, for the rows that learn from them; default: no such rows")
+      ->type_name("DIR");
+  command
+      ->add_option("--rivals", plan->rivals,
+                   "folder of weights of rival networks, such as mscr.safetensors; default: no such rows")
+      ->type_name("DIR");
+  command->add_option("--threads", plan->threads, "threads; 0 = all processors")->capture_default_str();
+  command->footer(
+      "Writes report.html, .pdf, .json, .csv and .md. A run that was cut off goes on where it was; what was measured "
+      "with the same "
+      "program, weights and data is not measured again.\n\nExample:\n  faceprobe eval paper --data data --quick -o "
+      "report");
+  command->callback([plan, &action] { action = [plan] { return run(*plan); }; });
+  return command;
+}
+
+}  // namespace faceprobe::cli

@@ -1,0 +1,32 @@
+#pragma once
+// The ways of estimating that are compared where the true direction of the light is known.
+
+#include "faceprobe/pipeline/estimate.h"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace faceprobe::cli {
+
+struct DirectionSetting {
+  std::string name;
+  pipeline::EstimateOptions options = {};
+  bool linear_codes = true;  // of grey pictures without a profile: code values are light; else they are taken for sRGB
+};
+
+// What no look at the photo gives: a light straight ahead, beside the settings.
+inline constexpr const char* kStraightAhead = "straight ahead, no estimate";
+
+// Called after each photo, once all settings have seen it.
+using PhotoDone = std::function<void()>;
+
+// "transport, net": `base` with this solver, and this classical separator in the place of the network.
+DirectionSetting direction_setting(lighting::Solver solver, const std::optional<highlight::Separator>& classical,
+                                   const pipeline::EstimateOptions& base);
+
+// Loads the models of each.
+std::vector<pipeline::Estimator> estimators_of(const std::vector<DirectionSetting>& settings);
+
+}  // namespace faceprobe::cli

@@ -1,0 +1,69 @@
+#include "faceprobe/core/error.h"
+#include "faceprobe/face/face.h"
+#include "faceprobe/pipeline/found_meshes.h"
+#include "faceprobe/synth/generate.h"
+#include "paper/plan.h"
+#include "synth_assets.h"
+
+#include <spdlog/spdlog.h>
+
+namespace faceprobe::cli {
+
+namespace {
+
+constexpr int kLeastFacePx = 30;  // in pictures of 128, as `faceprobe mesh`
+
+// The recipes of docs/training.md; a quick run makes fewer of the same.
+synth::Recipe faces_recipe(bool quick) {
+  return {.count = quick ? 256 : 2000, .size_px = 128, .seed = 2, .split = synth::Split::kDev};
+}
+synth::Recipe light_recipe(bool quick) {
+  return {.count = quick ? 64 : 400, .size_px = 256, .seed = 7, .split = synth::Split::kDev};
+}
+synth::Recipe groups_recipe(bool quick) {
+  return {.count = quick ? 2 : 100,
+          .size_px = 768,
+          .seed = 3,
+          .split = synth::Split::kDev,
+          .multi_face = true,
+          .views_per_person = 1,
+          .samples_per_view = 1};
+}
+
+}  // namespace
+
+void make_paper_faces(PaperPlan& plan) {
+  struct Set {
+    std::filesystem::path* folder;
+    const char* name;
+    synth::Recipe recipe;
+    bool meshes;
+  };
+  const std::vector<Set> sets = {{&plan.faces, "faces", faces_recipe(plan.quick), true},
+                                 {&plan.light, "light", light_recipe(plan.quick), true},
+                                 {&plan.groups, "groups", groups_recipe(plan.quick), false}};
+  synth::Assets assets;
+  for (const Set& set : sets) {
+    if (!set.folder->empty()) continue;
+    const std::filesystem::path folder = plan.output / (plan.quick ? "faces_quick" : "faces") / set.name;
+    if (assets.heads.empty()) {
+      assets = load_synth_assets({.heads = {(plan.data / "faces" / "ict_facekit").string()},
+                                  .skins = (plan.data / "faces" / "london_uv_textures").string(),
+                                  .maps = (plan.data / "hdri" / "dev").string(),
+                                  .reflectance = {},
+                                  .threads = plan.threads});
+    }
+    const synth::DatasetReport report = synth::generate_dataset(
+        assets, set.recipe, folder, {.threads = plan.threads}, [&](const synth::RunState& state) {
+          if (plan.progress) plan.progress(state.samples_done, state.samples_total);
+        });
+    if (set.meshes) {
+      const face::FaceFinder finder({.min_face_px = kLeastFacePx, .threads = plan.threads});
+      pipeline::find_meshes(folder, finder);
+    }
+    spdlog::info("{}: {} synthetic photos", folder.string(), report.state.samples_done);
+    *set.folder = folder;
+  }
+}
+
+}  // namespace faceprobe::cli

@@ -1,0 +1,127 @@
+#include "paper/yale.h"
+
+#include "faceprobe/core/angles.h"
+#include "faceprobe/core/color.h"
+#include "faceprobe/core/error.h"
+#include "faceprobe/io/photo.h"
+#include "paper/csv.h"
+#include "paper/light_direction.h"
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <map>
+#include <optional>
+
+namespace faceprobe::cli {
+
+namespace {
+
+constexpr std::array<double, 5> kSubsetEdgesDeg = {0, 12, 25, 50, kYaleMaxAxisDeg};  // Georghiades et al. 2001, section 5
+
+// The last subset has its upper edge too.
+std::size_t subset_of(double axis_deg) {
+  std::size_t subset = 0;
+  while (subset + 2 < kSubsetEdgesDeg.size() && axis_deg >= kSubsetEdgesDeg[subset + 1]) ++subset;
+  return subset;
+}
+
+double angle_in(const std::string& text, const std::filesystem::path& table) {
+  char* end = nullptr;
+  const double angle = std::strtod(text.c_str(), &end);
+  if (end == text.c_str() || *end != '\0' || !std::isfinite(angle))
+    throw Error(ExitCode::kInput, table.string() + " has '" + text + "' for an angle; it takes degrees.");
+  return angle;
+}
+
+// Eyes, nose tip, mouth corners: the same in every picture of the cropped set, for its pictures are aligned.
+Eigen::MatrixX2f fixed_landmarks() {
+  Eigen::MatrixX2f points(5, 2);
+  points << 34.4F, 46.6F, 132.2F, 45.4F, 79.1F, 100.2F, 43.9F, 152.3F, 121.3F, 152.8F;
+  return points;
+}
+
+// The database's readme: the camera had a linear response. The files carry no profile, so the loader took them for sRGB; this
+// undoes its curve.
+io::Photo as_linear_codes(io::Photo photo) {
+  for (float& value : photo.linear.values()) value = srgb_from_linear(value);
+  return photo;
+}
+
+using FlashMetrics = std::map<std::string, double>;
+
+FlashMetrics flash_errors(const pipeline::Estimator& estimator, const io::Photo& photo, const Eigen::Vector3d& light) {
+  constexpr double kNoAnswer = std::numeric_limits<double>::quiet_NaN();
+  FlashMetrics metrics = {
+      {"main_light_deg", kNoAnswer}, {"centroid_deg", kNoAnswer}, {"lamp_deg", kNoAnswer}, {"face", 0}};
+  const auto set = [&](const char* metric, const std::optional<Eigen::Vector3d>& direction) {
+    if (direction) metrics[metric] = angle_between_deg(*direction, light);
+  };
+  try {
+    const pipeline::Estimate estimate = estimator.estimate(photo);
+    const pipeline::FaceEstimate& face = estimate.faces[estimate.largest];
+    metrics["face"] = 1;
+    const std::vector<Eigen::Vector3d> lights = light_directions(face);
+    if (!lights.empty()) set("main_light_deg", lights.front());
+    set("centroid_deg", energy_centroid(face));
+    set("lamp_deg", single_lamp(face.observations));
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::kNoFace) throw;
+  }
+  return metrics;
+}
+
+}  // namespace
+
+std::vector<std::string> yale_flash_labels() {
+  std::vector<std::string> labels;
+  for (std::size_t i = 0; i + 1 < kSubsetEdgesDeg.size(); ++i) {
+    labels.push_back(std::to_string(std::lround(kSubsetEdgesDeg[i])) + " - " +
+                     std::to_string(std::lround(kSubsetEdgesDeg[i + 1])));
+  }
+  return labels;
+}
+
+std::vector<YalePicture> yale_pictures(const std::filesystem::path& folder, int every) {
+  const CsvTable table = read_csv(folder / "lights.csv");
+  const std::size_t file = table.column("file");
+  const std::size_t azimuth = table.column("azimuth_deg");
+  const std::size_t elevation = table.column("elevation_deg");
+  std::vector<YalePicture> pictures;
+  int usable = 0;
+  for (const auto& row : table.rows) {
+    // The database counts azimuth towards the subject's right, which is image left.
+    const Eigen::Vector3d light = direction_from_angles(-angle_in(row[azimuth], folder / "lights.csv"),
+                                                        angle_in(row[elevation], folder / "lights.csv"));
+    const double axis = angle_between_deg(light, Eigen::Vector3d::UnitZ());
+    const auto path = folder / "images" / row[file];
+    if (axis > kYaleMaxAxisDeg || !std::filesystem::exists(path)) continue;
+    if (usable++ % every == 0) pictures.push_back({path.stem().string(), path, light, axis});
+  }
+  return pictures;
+}
+
+eval::ScoreTable measure_yale(const std::vector<YalePicture>& pictures, const std::vector<DirectionSetting>& settings,
+                              const PhotoDone& done) {
+  std::vector<DirectionSetting> aligned = settings;
+  for (DirectionSetting& setting : aligned) setting.options.landmarks_px = fixed_landmarks();
+  const std::vector<pipeline::Estimator> estimators = estimators_of(aligned);
+  const std::vector<std::string> labels = yale_flash_labels();
+  eval::ScoreTable scores;
+  scores.order_labels("flash", labels);
+  for (const YalePicture& picture : pictures) {
+    const auto add = [&](const std::string& name, const FlashMetrics& metrics) {
+      scores.add({name, picture.name, {{"flash", labels[subset_of(picture.axis_deg)]}}, metrics});
+    };
+    add(kStraightAhead, {{"main_light_deg", picture.axis_deg}, {"centroid_deg", picture.axis_deg}});
+    const io::Photo as_srgb = io::load_photo(picture.file);
+    const io::Photo as_light = as_linear_codes(as_srgb);
+    for (std::size_t k = 0; k < aligned.size(); ++k)
+      add(aligned[k].name, flash_errors(estimators[k], aligned[k].linear_codes ? as_light : as_srgb, picture.light));
+    if (done) done();
+  }
+  return scores;
+}
+
+}  // namespace faceprobe::cli

@@ -1,0 +1,96 @@
+#include "rival_light_methods.h"
+
+#include "faceprobe/assets/maps.h"
+#include "faceprobe/core/resample.h"
+#include "faceprobe/net/light_regressor.h"
+#include "faceprobe/net/sky_regressor.h"
+#include "faceprobe/train/map_crops.h"
+
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+
+namespace faceprobe::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Of each map of the data, by its number; empty where the folder lacks it.
+std::vector<EnvMap> maps_of(const fs::path& folder, const std::string& recipe) {
+  std::map<std::string, EnvMap> by_name;
+  for (auto& [name, map] : assets::load_maps(folder.string())) by_name[name] = std::move(map);
+  std::vector<EnvMap> maps;
+  const nlohmann::json json = nlohmann::json::parse(recipe, nullptr, false);
+  for (const auto& name : json.value("maps", nlohmann::json::array())) {
+    const auto found = name.is_string() ? by_name.find(name.get<std::string>()) : by_name.end();
+    maps.push_back(found == by_name.end() ? EnvMap() : found->second);
+  }
+  return maps;
+}
+
+// What is behind the head, as a photo of it would be.
+class Backgrounds {
+ public:
+  Backgrounds(const fs::path& folder, const std::string& recipe) : maps_(maps_of(folder, recipe)) {}
+
+  std::optional<Image> behind(const eval::LightInput& input) const {
+    const auto number = static_cast<std::size_t>(input.sample.map);
+    if (number >= maps_.size() || maps_[number].width() == 0) return std::nullopt;
+    return train::crop_of_map(maps_[number], {.yaw_rad = input.sample.map_yaw});
+  }
+
+ private:
+  std::vector<EnvMap> maps_;
+};
+
+template <class Network>
+eval::LightMethod of_background(const std::string& name, const std::shared_ptr<Network>& network,
+                                const std::shared_ptr<Backgrounds>& scenes) {
+  return {name, [network, scenes](const eval::LightInput& input) -> Eigen::MatrixX3f {
+            const std::optional<Image> crop = scenes->behind(input);
+            return crop ? network->light(*crop) : Eigen::MatrixX3f();
+          }};
+}
+
+eval::LightMethod of_face(const std::string& name, const std::shared_ptr<net::LightRegressor>& network) {
+  return {name, [network](const eval::LightInput& input) -> Eigen::MatrixX3f {
+            const std::optional<Window> window = net::face_window(input.photo.mask, network->picture_px());
+            if (!window) return {};
+            return network->light(resampled(input.photo.linear, *window, Outside::kEdge));
+          }};
+}
+
+}  // namespace
+
+RivalMethods rival_light_methods(const RivalRows& rows) {
+  RivalMethods found;
+  // The weights of a row, or nothing and a sentence.
+  const auto weights_of = [&](const char* row, const char* file) -> std::optional<fs::path> {
+    const fs::path path = rows.weights / file;
+    if (!rows.weights.empty() && fs::exists(path)) return path;
+    found.missing += std::string(found.missing.empty() ? "" : " ") + "No row of " + row + ": its weights, " + file +
+                     ", are not in a folder that --rivals names; docs/training.md says how they are made.";
+    return std::nullopt;
+  };
+  const std::optional<fs::path> gardner = weights_of("gardner 2017", "gardner.safetensors");
+  const std::optional<fs::path> sky = weights_of("hold-geoffroy 2017", "sky.safetensors");
+  if (gardner || sky) {
+    const auto scenes = std::make_shared<Backgrounds>(rows.maps, rows.recipe);
+    if (gardner) {
+      found.methods.push_back(
+          of_background("gardner, trained on 80 maps", std::make_shared<net::LightRegressor>(*gardner), scenes));
+    }
+    if (sky) {
+      found.methods.push_back(of_background("hold-geoffroy, preetham sky",
+                                            std::make_shared<net::SkyRegressor>(*sky, rows.threads), scenes));
+    }
+  }
+  if (const auto legendre = weights_of("legendre 2020", "legendre.safetensors"))
+    found.methods.push_back(of_face("legendre, from the face", std::make_shared<net::LightRegressor>(*legendre)));
+  return found;
+}
+
+}  // namespace faceprobe::cli

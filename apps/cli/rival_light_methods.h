@@ -1,0 +1,27 @@
+#pragma once
+// Rows of light by networks that others have thought of, trained on what we have (docs/training.md): of the scene behind the head, or of the face
+// without any model of light.
+
+#include "faceprobe/eval/relight_benchmark.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace faceprobe::cli {
+
+struct RivalRows {
+  std::filesystem::path weights;  // folder: gardner.safetensors, sky.safetensors, legendre.safetensors
+  std::filesystem::path maps;     // folder of the HDR maps that the data was lit by
+  std::string recipe;             // ShardReader::recipe() of the data
+  int threads = 0;
+};
+struct RivalMethods {
+  std::vector<eval::LightMethod> methods;
+  std::string missing;  // sentences: which rows are not there and why; empty when all are
+};
+// The networks of backgrounds see 60 degrees of the map straight behind the head, as sharp as the map is and without the head before it: more
+// than a photo would show them. They see it level; the photos' cameras tilt by some degrees. Throws Error(kModel), Error(kInput).
+RivalMethods rival_light_methods(const RivalRows& rows);
+
+}  // namespace faceprobe::cli

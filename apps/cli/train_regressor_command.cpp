@@ -1,0 +1,60 @@
+#include "train_regressor_command.h"
+
+#include "faceprobe/assets/maps.h"
+#include "faceprobe/core/error.h"
+#include "faceprobe/train/train_regressor.h"
+
+#include <spdlog/spdlog.h>
+
+namespace faceprobe::cli {
+namespace {
+
+train::RegressorRun regressor_run(const train::TrainRun& options, const std::string& config,
+                                  const train::RegressorConfig& usual) {
+  if (!options.start.empty() || options.repeat_batch) {
+    throw Error(ExitCode::kUsage,
+                "What regresses light is trained from the start in minutes; --start and --repeat-batch are for the "
+                "other networks.");
+  }
+  return {.config = config.empty() ? usual : train::regressor_config_from_json(config, usual),
+          .folder = options.folder,
+          .threads = options.threads};
+}
+
+std::vector<EnvMap> maps_of(const std::filesystem::path& folder) {
+  std::vector<EnvMap> maps;
+  if (folder.empty()) return maps;
+  for (auto& [name, map] : assets::load_maps(folder)) maps.push_back(std::move(map));
+  return maps;
+}
+
+std::string errors_text(const train::RegressorErrors& errors) {
+  return fmt::format("diffuse {:.4f}, rough {:.3f}, direction {:.1f} degrees, level {:.3f}", errors.diffuse,
+                     errors.rough, errors.direction_deg, errors.level);
+}
+
+void log_regressor_row(const train::RegressorRow& row, int epochs) {
+  spdlog::info("epoch {} of {}: loss {:.4f}; {}", row.epoch, epochs, row.loss, errors_text(row.validation));
+}
+
+int finish(const train::RegressorReport& report) {
+  spdlog::info("the training lights' mean, whatever the picture: {}", errors_text(report.usual));
+  spdlog::info("wrote {}", report.weights.string());
+  return 0;
+}
+
+}  // namespace
+
+int train_gardner(const train::TrainRun& options, const std::string& config) {
+  const train::RegressorRun run = regressor_run(options, config, train::gardner_config());
+  const train::GardnerData data{.training = maps_of(options.data), .validation = maps_of(options.validation_data)};
+  return finish(train::train_gardner(data, run, log_regressor_row));
+}
+
+int train_legendre(const train::TrainRun& options, const std::string& config) {
+  const train::RegressorRun run = regressor_run(options, config, train::legendre_config());
+  const train::LegendreData data{.training = options.data, .validation = options.validation_data};
+  return finish(train::train_legendre(data, run, log_regressor_row));
+}
+
+}  // namespace faceprobe::cli
