@@ -7,7 +7,7 @@
 namespace faceprobe::highlight {
 namespace {
 
-constexpr int kSteps = 3;          // of Newton; rounds go on where the one before ended
+constexpr int kNewtonSteps = 3;    // of Newton; rounds go on where the one before ended
 constexpr float kLongestStep = 1;  // in the logarithm
 constexpr float kMost = 0.97F;     // of the smallest channel that a highlight may take: skin is not black
 constexpr float kNoiseShare = 0.04F;
@@ -66,7 +66,7 @@ void split_pixel(const PixelPriors& priors, const Eigen::Vector3f& log_skin, Ski
   const Eigen::Vector3f expected = pixel.shading.array().log().matrix() + log_skin + pixel.around;
   const float highest = std::log(most / pixel.expected_highlight);
   float ratio = std::min(pixel.log_ratio, highest);
-  for (int step = 0; step < kSteps; ++step) {
+  for (int step = 0; step < kNewtonSteps; ++step) {
     const float highlight = std::min(most, pixel.expected_highlight * std::exp(ratio));
     const Residual residual = residual_at(pixel, expected, highlight);
     const Eigen::Vector3f weighted = precision * residual.slope;

@@ -120,6 +120,7 @@ eval::ScoreTable measure_london(const LondonSet& london, const std::vector<Direc
   std::vector<std::vector<BothAnswers>> answers(settings.size());
   for (const LondonPerson& person : london.people) {
     std::vector<std::optional<LondonAnswer>> neutral;
+    neutral.reserve(estimators.size());
     const io::Photo first = io::load_photo(person.neutral);
     for (const pipeline::Estimator& estimator : estimators) neutral.push_back(london_answer(estimator, first));
     if (done) done();
