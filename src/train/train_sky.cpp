@@ -143,7 +143,7 @@ class SkyTraining {
 
   Terms one_step(const Batch& batch) {
     optimizer_.zero_grad();
-    const Terms terms = terms_of(batch, config_.drop);
+    Terms terms = terms_of(batch, config_.drop);
     (terms.sun + config_.numbers_weight * terms.numbers).backward();
     constexpr double kLargestGradient = 5;
     torch::nn::utils::clip_grad_norm_(net_->parameters(), kLargestGradient);

@@ -139,6 +139,7 @@ class TrainRegressorTest : public ::testing::Test {
 
 TEST_F(TrainRegressorTest, GardnerLearnsWhereTheLampIs) {
   run_.config.epochs = 18;
+  run_.config.mask_share = 0.5;
   const GardnerData data{{painted_room()}, {painted_room()}};
   const RegressorReport report = train_gardner(data, run_);
   ASSERT_EQ(report.rows.size(), 18U);

@@ -7,12 +7,13 @@
 //
 // where shading is spherical harmonics of order 2 for each channel, so that light from each side may have its own colour.
 //
-// What is theirs, as far as the abstract says: the subspace of the two pigments, colours of light that vary with direction, a
-// face's geometry, pixels that are clipped in part, no need of a calibrated camera. Their energy, priors, solver and code are not
-// known here. What stands in their place is ours: normal priors on how far a pixel's pigments, shading and colour depart from those
-// around it, a log-normal one on the highlight about what skin mirrors of the light found, and rounds of least squares for the light
-// and of Newton's steps for each pixel. The directions of the pigments are fixed, from a model of skin that `synth` draws its tones
-// from too, and the priors' widths were chosen on training faces of `synth`: on our synthetic faces both favour this method.
+// Written from the abstract alone. What is theirs, as far as that says: the subspace of the two pigments, colours of light that
+// vary with direction, a face's geometry, pixels that are clipped in part, no need of a calibrated camera. Their energy, priors,
+// solver and code were not at hand. What stands in their place is ours: normal priors on how far a pixel's pigments, shading and
+// colour depart from those around it, a log-normal one on the highlight about what skin mirrors of the light found, and rounds of
+// least squares for the light and of Newton's steps for each pixel. The directions of the pigments are fixed, from a model of
+// skin that `synth` draws its tones from too, and the priors' widths were chosen on training faces of `synth`: on our synthetic
+// faces both favour this method.
 //
 // White light added to skin moves its colour nearly as less melanin would: m must be tied to its surroundings, and broad sheen
 // is told by the expectation more than by the photo. So a grey photo, which holds no evidence, still gets an expected highlight.
