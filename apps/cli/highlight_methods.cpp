@@ -2,6 +2,7 @@
 
 #include "eval_stages.h"
 #include "faceprobe/highlight/separate.h"
+#include "faceprobe/highlight/skin_subspace.h"
 #include "faceprobe/net/both_ways.h"
 #include "faceprobe/net/face_net.h"
 #include "faceprobe/net/torch_highlight_net.h"
@@ -25,6 +26,11 @@ std::vector<eval::HighlightMethod> classical_highlight_methods(int threads) {
   for (const highlight::Separator separator :
        {highlight::Separator::kTan, highlight::Separator::kYang, highlight::Separator::kShen})
     methods.push_back(classical(separator, threads));
+  methods.push_back({"li 2017, lite", [threads](const eval::PhotoInput& input) {
+                       return highlight::separate_skin(input.linear, input.clip, input.mask, input.mesh_normal_cam,
+                                                       {.threads = threads})
+                           .highlight;
+                     }});
   return methods;
 }
 

@@ -92,8 +92,7 @@ Sections object_sections(const PaperPlan& plan) {
       .title = "Highlight layers of objects",
       .text =
           "Objects whose diffuse layer was photographed through polarisers: shen (Shen & Zheng 2013) and mit (Grosse "
-          "et "
-          "al. 2009). Code values are taken as they are, as in the published figures, which are those of the SIHR "
+          "et al. 2009). Code values are taken as they are, as in the published figures, which are those of the SIHR "
           "collection: they tell whether our classical separators do what theirs do. Everything counts, the "
           "background too. The black layer takes the whole picture for diffuse.\n\n"
           "Our network needs a face and has no row here.",
