@@ -1,6 +1,7 @@
 #include "scene_table.h"
 
 #include "faceprobe/core/error.h"
+#include "paper/csv.h"
 
 #include <algorithm>
 #include <fstream>
@@ -11,22 +12,6 @@
 namespace faceprobe::cli {
 
 namespace {
-
-// RFC 4180, one record a line.
-std::vector<std::string> fields(const std::string& line) {
-  std::vector<std::string> out(1);
-  bool quoted = false;
-  for (const char c : line) {
-    if (c == '"') {
-      quoted = !quoted;
-    } else if (c == ',' && !quoted) {
-      out.emplace_back();
-    } else if (c != '\r') {
-      out.back() += c;
-    }
-  }
-  return out;
-}
 
 std::size_t column(const std::vector<std::string>& head, const std::string& name, const std::filesystem::path& table) {
   for (std::size_t i = 0; i < head.size(); ++i) {
@@ -42,12 +27,12 @@ std::function<std::string(int map)> scene_of_maps(const std::filesystem::path& t
   std::ifstream file(table);
   std::string line;
   if (!std::getline(file, line)) throw Error(ExitCode::kInput, table.string() + " cannot be read, or is empty.");
-  const std::vector<std::string> head = fields(line);
+  const std::vector<std::string> head = csv_fields(line);
   const std::size_t name = column(head, "name", table);
   const std::size_t scene_kind = column(head, kind, table);
   std::map<std::string, std::string> scene;
   while (std::getline(file, line)) {
-    const std::vector<std::string> record = fields(line);
+    const std::vector<std::string> record = csv_fields(line);
     if (record.size() > std::max(name, scene_kind)) scene[record[name]] = record[scene_kind];
   }
   std::vector<std::string> of_map;

@@ -7,10 +7,14 @@
 
 namespace faceprobe::eval {
 
+bool says_light(const Eigen::MatrixX3f& found, const SphereGrid& grid) {
+  return found.rows() == grid.cell_count() && found.allFinite() && found.maxCoeff() > 0;
+}
+
 std::map<std::string, double> map_metrics(const Eigen::MatrixX3f& truth, const Eigen::MatrixX3f& found,
                                           const LitObject& object, const SphereGrid& grid, bool one_lamp) {
   using render::SphereMaterial;
-  const bool there = found.rows() == grid.cell_count() && found.allFinite() && found.maxCoeff() > 0;
+  const bool there = says_light(found, grid);
   std::map<std::string, double> metrics;
   const RelightError error = there ? relight_error(object, truth, found) : RelightError{kNaN, kNaN};
   metrics["diffuse"] = error.diffuse;

@@ -1,6 +1,6 @@
 #include "faceprobe/eval/relight_benchmark.h"
 
-#include "eval/nan.h"
+#include "eval/map_metrics.h"
 #include "eval/relight_sheet.h"
 #include "eval/synthetic_photo.h"
 #include "faceprobe/core/error.h"
@@ -19,27 +19,9 @@ namespace {
 std::map<std::string, double> all_metrics(const Eigen::MatrixX3f& truth, const Eigen::MatrixX3f& found,
                                           const LitObject& object, const SphereGrid& grid, bool one_lamp,
                                           const std::optional<Sun>& sun) {
-  using render::SphereMaterial;
-  std::map<std::string, double> metrics;
-  const bool there = found.rows() == grid.cell_count() && found.allFinite() && found.maxCoeff() > 0;
-  const RelightError error = there ? relight_error(object, truth, found) : RelightError{kNaN, kNaN};
-  metrics["diffuse"] = error.diffuse;
-  metrics["glossy"] = error.glossy;
-  const std::pair<const char*, SphereMaterial> spheres[] = {
-      {"diffuse", SphereMaterial::kDiffuse}, {"matte", SphereMaterial::kMatte}, {"mirror", SphereMaterial::kMirror}};
-  for (const auto& [name, material] : spheres) {
-    const SphereError sphere = there ? sphere_error(truth, found, grid, material) : SphereError{kNaN, kNaN, kNaN};
-    metrics[std::string("si_") + name] = sphere.si_rmse;
-    metrics[std::string("angle_") + name] = sphere.angular_deg;
-    metrics[std::string("nrmse_") + name] = sphere.nrmse;
-  }
-  const MapError map = there ? map_error(truth, found) : MapError{kNaN, kNaN};
-  metrics["nrmse_map"] = map.over_estimate_range;
-  metrics["nrmse_map_truth"] = map.over_truth_range;
-  metrics["colour"] = there ? light_colour_error_deg(truth, found) : kNaN;
-  if (one_lamp) metrics["main_light"] = there ? main_light_error_deg(truth, found, grid) : kNaN;
+  std::map<std::string, double> metrics = map_metrics(truth, found, object, grid, one_lamp);
   if (sun) {
-    const SunError off = sun_error(*sun, there ? sun_of(found, grid) : std::nullopt);
+    const SunError off = sun_error(*sun, says_light(found, grid) ? sun_of(found, grid) : std::nullopt);
     metrics["sun_centroid"] = off.angle_deg;
     metrics["sun_azimuth"] = off.azimuth_deg;
     metrics["sun_elevation"] = off.elevation_deg;

@@ -1,30 +1,14 @@
 // The table as text: CSV for other programs, JSON with the summaries, Markdown for people.
+#include "eval/csv_text.h"
 #include "eval/markdown.h"
 #include "faceprobe/eval/score_table.h"
 
-#include <array>
-#include <charconv>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace faceprobe::eval {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-// The shortest digits that read back as the same number, in any locale.
-std::string exact(double value) {
-  if (!std::isfinite(value)) return {};
-  std::array<char, 32> text;
-  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
-}
-
-std::string csv_cell(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + '"';
-}
 
 std::string interval(const Summary& s, int decimals) {
   return '[' + rounded(s.mean_low, decimals) + ", " + rounded(s.mean_high, decimals) + ']';

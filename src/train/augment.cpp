@@ -14,6 +14,9 @@
 namespace faceprobe::train {
 namespace {
 
+// The network of Shi et al. learns from the shading.
+bool learns_surface(const TrainConfig& config) { return config.architecture == "face" || config.architecture == "shi"; }
+
 // Rec.709 luminance in all channels of both layers, as a grey photo has.
 void take_colour(TrainingPicture& picture) {
   for (std::size_t i = 0; i < picture.linear.pixel_count(); ++i) {
@@ -108,7 +111,11 @@ TrainingPicture picture_of(const synth::ShardReader& reader, int number, float m
                           .depth_m = std::move(view.depth_m),
                           .shading = std::move(sample.shading),
                           .region = surface ? std::move(view.region) : ByteImage()};
-  if (surface) put_mesh(reader, number, picture);
+  if (surface && reader.has_meshes()) {
+    put_mesh(reader, number, picture);
+  } else if (surface) {
+    picture.mesh = Image(picture.linear.width(), picture.linear.height(), 3);  // as where no face was found
+  }
   for (std::size_t i = 0; i < sample.clip.pixel_count(); ++i) {
     for (std::size_t c = 0; c < 3; ++c)
       picture.clip.data()[3 * i + c] = static_cast<std::uint8_t>(sample.clip.data()[i] >> c & 1U);
@@ -162,7 +169,7 @@ void apply_gain(const std::array<float, 3>& gain, TrainingPicture& picture) {
 }
 
 TrainingPicture plain_picture(const synth::ShardReader& reader, int sample, const TrainConfig& config) {
-  TrainingPicture picture = picture_of(reader, sample, 1.0F, config.architecture == "face");
+  TrainingPicture picture = picture_of(reader, sample, 1.0F, learns_surface(config));
   if (config.picture_px == 0) return picture;
   return seen_through(near_window(picture, config.picture_px).value_or(whole_window(picture, config.picture_px)),
                       picture);
@@ -191,7 +198,7 @@ TrainingPicture draw_picture(const synth::ShardReader& reader, int sample, const
   const bool cut = random.chance(augment.cut_share);
   const std::array<double, 4> cuts = draw_cuts(random);
 
-  TrainingPicture picture = picture_of(reader, sample, scale, config.architecture == "face");
+  TrainingPicture picture = picture_of(reader, sample, scale, learns_surface(config));
   if (config.picture_px > 0) {
     const std::optional<Window> near_view = near ? near_window(picture, config.picture_px) : std::nullopt;
     const Window all = whole_window(picture, config.picture_px);

@@ -98,13 +98,6 @@ Batch make_batch(std::size_t count, const Make& make) {
   return batch;
 }
 
-// Whose pictures come with the surface's layers: the network of Shi et al. learns from the shading among them.
-TrainConfig with_labels(const TrainConfig& config) {
-  TrainConfig labelled = config;
-  if (config.architecture == "shi") labelled.architecture = "face";
-  return labelled;
-}
-
 bool has_shading(const synth::ShardReader& reader) {
   for (int i = 0; i < reader.sample_count(); ++i) {
     if (!reader.place(i).first->has("sample.shading")) return false;
@@ -123,22 +116,18 @@ Batch training_batch(const synth::ShardReader& reader, const TrainConfig& config
 }  // namespace
 
 void require_meshes(const synth::ShardReader& reader, const std::filesystem::path& folder, const TrainConfig& config) {
-  const bool shi = config.architecture == "shi";
-  if (config.architecture != "face" && !shi) return;
-  if (shi && !has_shading(reader)) {
+  if (config.architecture == "shi" && !has_shading(reader)) {
     throw Error(ExitCode::kInput, "The network of Shi et al. learns from the shading, which the data in " +
                                       folder.string() + " do not have. Make them again with `faceprobe synth`.");
   }
-  if (reader.has_meshes()) return;
-  const std::string needs = shi ? "The network of Shi et al. learns from the same pictures as the face network, with"
-                                : "The face network is given";
-  throw Error(ExitCode::kInput, needs + " the mesh that is found in a photo, which the data in " + folder.string() +
-                                    " do not have. Run `faceprobe mesh " + folder.string() + "` first.");
+  if (config.architecture != "face" || reader.has_meshes()) return;
+  throw Error(ExitCode::kInput, "The face network is given the mesh that is found in a photo, which the data in " +
+                                    folder.string() + " do not have. Run `faceprobe mesh " + folder.string() +
+                                    "` first.");
 }
 
 Batch plain_batch(const synth::ShardReader& reader, const std::vector<int>& samples, const TrainConfig& config) {
-  const TrainConfig labelled = with_labels(config);
-  return make_batch(samples.size(), [&](std::size_t i) { return plain_picture(reader, samples[i], labelled); });
+  return make_batch(samples.size(), [&](std::size_t i) { return plain_picture(reader, samples[i], config); });
 }
 
 std::vector<int> samples_of_step(std::uint64_t seed, std::int64_t step, int batch, int sample_count) {
@@ -158,7 +147,7 @@ std::vector<int> samples_of_step(std::uint64_t seed, std::int64_t step, int batc
 
 BatchSource::BatchSource(const synth::ShardReader& reader, const TrainConfig& config, std::int64_t first_step,
                          bool repeat)
-    : reader_(reader), config_(with_labels(config)), repeat_(repeat), wanted_(first_step), started_(first_step) {
+    : reader_(reader), config_(config), repeat_(repeat), wanted_(first_step), started_(first_step) {
   for (int i = 0; i < kWorkers; ++i) workers_.emplace_back([this] { work(); });
 }
 

@@ -1,18 +1,12 @@
-#include "faceprobe/core/error.h"
 #include "faceprobe/train/train_regressor.h"
 
-#include <algorithm>
-#include <nlohmann/json.hpp>
-#include <set>
+#include "train/number_config.h"
 
 namespace faceprobe::train {
 namespace {
 
-using RegressorJson = nlohmann::ordered_json;
-
 // Calls visit(key, value, low, high) for every number.
-template <class Config, class Visit>
-void each_regressor_number(Config& config, const Visit& visit) {
+constexpr auto kEachRegressorNumber = [](auto& config, const auto& visit) {
   visit("picture_px", config.picture_px, 8, 512);
   visit("features", config.features, 1, 512);
   visit("light_size", config.light_size, 1, 64);
@@ -31,11 +25,9 @@ void each_regressor_number(Config& config, const Visit& visit) {
   visit("rough_weight", config.rough_weight, 0, 100);
   visit("mirror_weight", config.mirror_weight, 0, 100);
   visit("seed", config.seed, 0, 1e18);
-}
+};
 
-[[noreturn]] void refuse_regressor(const std::string& what) {
-  throw Error(ExitCode::kUsage, "The regressor config " + what);
-}
+const NumberConfig<RegressorConfig> kRegressorForm{"regressor", "widths", &RegressorConfig::widths};
 
 }  // namespace
 
@@ -49,50 +41,14 @@ RegressorConfig legendre_config() {
   return config;
 }
 
-std::string RegressorConfig::validate() const {
-  std::string problem;
-  each_regressor_number(*this, [&](const char* key, const auto& value, double low, double high) {
-    const auto number = static_cast<double>(value);
-    if (problem.empty() && !(number >= low && number <= high)) {
-      problem = "The regressor config's " + std::string(key) + " is " + RegressorJson(number).dump() + "; allowed is " +
-                RegressorJson(low).dump() + " to " + RegressorJson(high).dump() + ".";
-    }
-  });
-  return problem;
-}
+std::string RegressorConfig::validate() const { return number_problem(kRegressorForm, *this, kEachRegressorNumber); }
 
 RegressorConfig regressor_config_from_json(const std::string& text, const RegressorConfig& usual) {
-  const RegressorJson json = RegressorJson::parse(text, nullptr, false);
-  if (!json.is_object()) refuse_regressor("is not a JSON object.");
-  RegressorConfig config = usual;
-  std::set<std::string> known = {"widths"};
-  const auto read = [&](const char* key, auto& value) {
-    if (!json.contains(key)) return;
-    try {
-      json.at(key).get_to(value);
-    } catch (const nlohmann::json::exception&) {
-      refuse_regressor(std::string("has ") + json.at(key).dump() + " for " + key + ", which is not of its type.");
-    }
-  };
-  read("widths", config.widths);
-  each_regressor_number(config, [&](const char* key, auto& value, double, double) {
-    known.insert(key);
-    read(key, value);
-  });
-  for (const auto& [key, value] : json.items()) {
-    if (known.contains(key)) continue;
-    std::string keys;
-    for (const std::string& name : known) keys += keys.empty() ? name : ", " + name;
-    refuse_regressor("has the key \"" + key + "\"; there are: " + keys + ".");
-  }
-  if (const std::string problem = config.validate(); !problem.empty()) throw Error(ExitCode::kUsage, problem);
-  return config;
+  return numbers_from_json(kRegressorForm, text, usual, kEachRegressorNumber);
 }
 
 std::string to_json(const RegressorConfig& config) {
-  RegressorJson json = {{"widths", config.widths}};
-  each_regressor_number(config, [&](const char* key, const auto& value, double, double) { json[key] = value; });
-  return json.dump(1);
+  return numbers_to_json(kRegressorForm, config, kEachRegressorNumber);
 }
 
 }  // namespace faceprobe::train

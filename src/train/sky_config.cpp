@@ -1,18 +1,14 @@
-#include "faceprobe/core/error.h"
 #include "faceprobe/train/train_sky.h"
 
+#include "train/number_config.h"
+
 #include <algorithm>
-#include <nlohmann/json.hpp>
-#include <set>
 
 namespace faceprobe::train {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 // Calls visit(key, value, low, high) for every number.
-template <class Config, class Visit>
-void each_sky_number(Config& config, const Visit& visit) {
+constexpr auto kEachSkyNumber = [](auto& config, const auto& visit) {
   visit("px", config.px, 32, 512);
   visit("hidden", config.hidden, 1, 2048);
   visit("crops_per_map", config.crops_per_map, 2, 4096);
@@ -29,21 +25,14 @@ void each_sky_number(Config& config, const Visit& visit) {
   visit("exposure_spread", config.exposure_spread, 0, 2);
   visit("colour_spread", config.colour_spread, 0, 1);
   visit("seed", config.seed, 0, 1e18);
-}
+};
 
-[[noreturn]] void refuse_sky(const std::string& what) { throw Error(ExitCode::kUsage, "The sky config " + what); }
+const NumberConfig<SkyConfig> kSkyForm{"sky", "widths", &SkyConfig::widths};
 
 }  // namespace
 
 std::string SkyConfig::validate() const {
-  std::string problem;
-  each_sky_number(*this, [&](const char* key, const auto& value, double low, double high) {
-    const auto number = static_cast<double>(value);
-    if (problem.empty() && !(number >= low && number <= high)) {
-      problem = "The sky config's " + std::string(key) + " is " + Json(number).dump() + "; allowed is " +
-                Json(low).dump() + " to " + Json(high).dump() + ".";
-    }
-  });
+  std::string problem = number_problem(kSkyForm, *this, kEachSkyNumber);
   const bool sizes = std::ranges::all_of(widths, [](int size) { return size >= 1 && size <= 2048; });
   if (problem.empty() && (widths.size() != 7 || !sizes))
     problem = "The sky config's widths must list 7 sizes of 1 to 2048.";
@@ -55,37 +44,9 @@ std::string SkyConfig::validate() const {
 }
 
 SkyConfig sky_config_from_json(const std::string& text) {
-  const Json json = Json::parse(text, nullptr, false);
-  if (!json.is_object()) refuse_sky("is not a JSON object.");
-  SkyConfig config;
-  std::set<std::string> known = {"widths"};
-  const auto read = [&](const char* key, auto& value) {
-    if (!json.contains(key)) return;
-    try {
-      json.at(key).get_to(value);
-    } catch (const nlohmann::json::exception&) {
-      refuse_sky(std::string("has ") + json.at(key).dump() + " for " + key + ", which is not of its type.");
-    }
-  };
-  read("widths", config.widths);
-  each_sky_number(config, [&](const char* key, auto& value, double, double) {
-    known.insert(key);
-    read(key, value);
-  });
-  for (const auto& [key, value] : json.items()) {
-    if (known.contains(key)) continue;
-    std::string keys;
-    for (const std::string& name : known) keys += keys.empty() ? name : ", " + name;
-    refuse_sky("has the key \"" + key + "\"; there are: " + keys + ".");
-  }
-  if (const std::string problem = config.validate(); !problem.empty()) throw Error(ExitCode::kUsage, problem);
-  return config;
+  return numbers_from_json(kSkyForm, text, SkyConfig(), kEachSkyNumber);
 }
 
-std::string to_json(const SkyConfig& config) {
-  Json json = {{"widths", config.widths}};
-  each_sky_number(config, [&](const char* key, const auto& value, double, double) { json[key] = value; });
-  return json.dump(1);
-}
+std::string to_json(const SkyConfig& config) { return numbers_to_json(kSkyForm, config, kEachSkyNumber); }
 
 }  // namespace faceprobe::train

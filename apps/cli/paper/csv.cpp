@@ -4,22 +4,23 @@
 
 #include <algorithm>
 #include <fstream>
-#include <sstream>
 
 namespace faceprobe::cli {
 
-namespace {
-
-std::vector<std::string> fields_of(std::string line) {
-  if (!line.empty() && line.back() == '\r') line.pop_back();
-  std::vector<std::string> fields;
-  std::stringstream stream(line);
-  for (std::string field; std::getline(stream, field, ',');) fields.push_back(field);
-  if (!line.empty() && line.back() == ',') fields.emplace_back();
+std::vector<std::string> csv_fields(const std::string& line) {
+  std::vector<std::string> fields(1);
+  bool quoted = false;
+  for (const char c : line) {
+    if (c == '"') {
+      quoted = !quoted;
+    } else if (c == ',' && !quoted) {
+      fields.emplace_back();
+    } else if (c != '\r') {
+      fields.back() += c;
+    }
+  }
   return fields;
 }
-
-}  // namespace
 
 std::size_t CsvTable::column(const std::string& name) const {
   const auto found = std::find(header.begin(), header.end(), name);
@@ -32,10 +33,10 @@ CsvTable read_csv(const std::filesystem::path& path) {
   std::string line;
   if (!std::getline(file, line)) throw Error(ExitCode::kInput, path.string() + " cannot be read or is empty.");
   CsvTable table;
-  table.header = fields_of(line);
+  table.header = csv_fields(line);
   while (std::getline(file, line)) {
     if (line.empty()) continue;
-    table.rows.push_back(fields_of(line));
+    table.rows.push_back(csv_fields(line));
     if (table.rows.back().size() != table.header.size()) {
       throw Error(ExitCode::kInput, path.string() + " has a row of " + std::to_string(table.rows.back().size()) +
                                         " fields under a header of " + std::to_string(table.header.size()) + ".");

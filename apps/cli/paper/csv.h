@@ -1,11 +1,14 @@
 #pragma once
-// Comma-separated tables that come with the data: one header row, no quotes.
+// Comma-separated tables that come with the data: one header row, one record a line, fields with commas in quotes.
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
 namespace faceprobe::cli {
+
+// The fields of one line, at least one.
+std::vector<std::string> csv_fields(const std::string& line);
 
 struct CsvTable {
   std::vector<std::string> header;

@@ -1,5 +1,5 @@
 #pragma once
-// The networks of highlight_net.h as training sees them, on libtorch: also the paper's MSCR, and on a card. For measuring what was
+// The networks of highlight_net.h as training sees them, on libtorch: also the paper's MSCR and that of Shi et al. 2017, and on a card. For measuring what was
 // trained; use highlight_net.h where only the layers are wanted. In builds with -DFACEPROBE_TRAIN=ON.
 //
 //   const net::TorchHighlightNet network("mscr.safetensors", {.device = net::device_from_name("auto")});

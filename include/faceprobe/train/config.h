@@ -43,7 +43,7 @@ struct LossConfig {
 
 struct TrainConfig {
   // "unet": highlights alone. "face": the same with normals, depth, regions and shading beside them. "mscr": the paper's, highlights
-  // with its plain L2 loss and no augmentation but the mirror. "shi": that of Shi et al. 2017, highlights, albedo and shading with its own
+  // with its plain L2 loss and no change of the light's colour and exposure. "shi": that of Shi et al. 2017, highlights, albedo and shading with its own
   // loss; the weights above are not for it.
   std::string architecture = "unet";
   std::string network = "{}";  // the architecture's own options, JSON

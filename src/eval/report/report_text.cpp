@@ -1,11 +1,12 @@
 // The report's tables as Markdown and as CSV.
+#include "eval/csv_text.h"
 #include "eval/markdown.h"
 #include "eval/report/html.h"
 #include "eval/report/table_cells.h"
 #include "faceprobe/eval/paper_report.h"
 
-#include <array>
-#include <charconv>
+#include <optional>
+#include <string>
 
 namespace faceprobe::eval {
 namespace {
@@ -48,19 +49,7 @@ std::string markdown_table(const ReportTable& table) {
   return out + '\n' + joined_paragraphs(table.note);
 }
 
-std::string quoted_csv(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + '"';
-}
-
-// The shortest digits that read back as the same number.
-std::string shortest(const std::optional<double>& value) {
-  if (!value) return {};
-  std::array<char, 32> text;
-  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), *value).ptr};
-}
+std::string exact_or_nothing(const std::optional<double>& value) { return value ? exact(*value) : std::string(); }
 
 std::string csv_rows(const ReportSection& section, const ReportTable& table) {
   table_cells(table);  // refuses what does not fit
@@ -68,9 +57,9 @@ std::string csv_rows(const ReportSection& section, const ReportTable& table) {
   for (const ReportTable::Row& row : table.rows) {
     for (std::size_t column = 0; column < table.columns.size(); ++column) {
       const auto interval = interval_at(row, column);
-      out += quoted_csv(section.id) + ',' + quoted_csv(table.title) + ',' + quoted_csv(row.name) + ',' +
-             quoted_csv(table.columns[column]) + ',' + shortest(value_at(row, column));
-      out += interval ? ',' + shortest(interval->first) + ',' + shortest(interval->second) : ",,";
+      out += csv_cell(section.id) + ',' + csv_cell(table.title) + ',' + csv_cell(row.name) + ',' +
+             csv_cell(table.columns[column]) + ',' + exact_or_nothing(value_at(row, column));
+      out += interval ? ',' + exact(interval->first) + ',' + exact(interval->second) : ",,";
       out += "\r\n";
     }
   }

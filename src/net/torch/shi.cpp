@@ -8,11 +8,9 @@
 namespace faceprobe::net {
 namespace {
 
-constexpr int kDecoders = 3;             // albedo, shading, highlight
-constexpr int kMiddleUnits = 4;          // convolutions of a decoder at the smallest size
-constexpr int kWidestShi = 512;          // options from a file cannot ask for more memory than there is
-constexpr double kNewest = 0.1;          // share of a batch in the running mean and variance
-constexpr double kVarianceFloor = 1e-5;  // both are Torch's defaults, as released
+constexpr int kDecoders = 3;     // albedo, shading, highlight
+constexpr int kMiddleUnits = 4;  // convolutions of a decoder at the smallest size
+constexpr int kWidestShi = 512;  // options from a file cannot ask for more memory than there is
 
 torch::Tensor grow_2_times(const torch::Tensor& x) {
   return torch::upsample_bilinear2d(x, {2 * x.size(2), 2 * x.size(3)}, false);
@@ -57,18 +55,12 @@ torch::Tensor shi_input(const torch::Tensor& linear) { return linear.clamp(0, 1)
 
 // The normalisation takes off whatever bias a convolution has.
 ShiUnitImpl::ShiUnitImpl(int in, int out, int stride, int groups)
-    : conv_(torch::nn::Conv2dOptions(in, out, 3).stride(stride).padding(1).groups(groups).bias(false)) {
+    : conv_(torch::nn::Conv2dOptions(in, out, 3).stride(stride).padding(1).groups(groups).bias(false)), norm_(out) {
   register_module("conv", conv_);
-  scale_ = register_parameter("scale", torch::ones({out}));
-  shift_ = register_parameter("shift", torch::zeros({out}));
-  mean_ = register_buffer("mean", torch::zeros({out}));
-  variance_ = register_buffer("variance", torch::ones({out}));
+  register_module("norm", norm_);
 }
 
-torch::Tensor ShiUnitImpl::forward(const torch::Tensor& x) {
-  return torch::relu(
-      torch::batch_norm(conv_(x), scale_, shift_, mean_, variance_, is_training(), kNewest, kVarianceFloor, true));
-}
+torch::Tensor ShiUnitImpl::forward(const torch::Tensor& x) { return torch::relu(norm_(conv_(x))); }
 
 ShiImpl::ShiImpl(const ShiOptions& options) : options_(options) {
   if (const std::string problem = options.validate(); !problem.empty()) throw std::invalid_argument(problem);

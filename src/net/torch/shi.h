@@ -11,6 +11,8 @@
 //   net->eval();                                                // else it normalises by the batch at hand
 //   const ShiLayers out = net(shi_input(linear));               // N x 3 x H x W -> the same size; H, W multiples of net->multiple()
 
+#include "net/torch/batch_norm.h"
+
 #include <torch/torch.h>
 #include <array>
 #include <string>
@@ -38,8 +40,7 @@ struct ShiLayers {
   torch::Tensor albedo, shading, highlight;
 };
 
-// A 3x3 convolution, batch normalisation and ReLU. Not torch::nn::BatchNorm2d: that keeps a count of batches, a whole number, and
-// weights files hold none.
+// A 3x3 convolution, batch normalisation and ReLU.
 class ShiUnitImpl : public torch::nn::Module {
  public:
   ShiUnitImpl(int in, int out, int stride, int groups);
@@ -47,7 +48,7 @@ class ShiUnitImpl : public torch::nn::Module {
 
  private:
   torch::nn::Conv2d conv_;
-  torch::Tensor scale_, shift_, mean_, variance_;
+  BatchNorm norm_;
 };
 TORCH_MODULE(ShiUnit);
 

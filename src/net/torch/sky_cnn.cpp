@@ -13,8 +13,6 @@ namespace {
 
 constexpr std::array<int, SkyCnnOptions::kConvolutions> kSides = {7, 5, 3, 3, 3, 3, 3};
 constexpr std::array<int, SkyCnnOptions::kConvolutions> kStrides = {2, 2, 2, 1, 2, 1, 2};
-constexpr double kFollow = 0.1;  // of a batch in the running mean and variance
-constexpr double kLeastVariance = 1e-5;
 constexpr double kLeastSpread = 1e-3;  // of numbers that do not change
 
 }  // namespace
@@ -44,16 +42,6 @@ SkyCnnOptions sky_cnn_options_from_json(const std::string& json) {
   reader.finish();
   require_valid_options(options.validate());
   return options;
-}
-
-BatchNormImpl::BatchNormImpl(int channels)
-    : weight_(register_parameter("weight", torch::ones({channels}))),
-      bias_(register_parameter("bias", torch::zeros({channels}))),
-      mean_(register_buffer("mean", torch::zeros({channels}))),
-      variance_(register_buffer("variance", torch::ones({channels}))) {}
-
-torch::Tensor BatchNormImpl::forward(const torch::Tensor& x) {
-  return torch::batch_norm(x, weight_, bias_, mean_, variance_, is_training(), kFollow, kLeastVariance, false);
 }
 
 SkyCnnImpl::SkyCnnImpl(const SkyCnnOptions& options) : options_(options) {

@@ -6,6 +6,8 @@
 //   const SkyCnn::Impl::Output out = net(pictures);       // N x 3 x px x px, sRGB-encoded, 0..1
 //   const torch::Tensor share = out.sun.softmax(1);       // N x 160, core/sun_bins.h
 
+#include "net/torch/batch_norm.h"
+
 #include <torch/torch.h>
 #include <string>
 #include <vector>
@@ -37,17 +39,6 @@ enum class SkyNumber : int {
 };
 inline constexpr int kSkyNumbers = 5;
 inline constexpr double kLeastSunlight = 0.01;
-
-// torch::nn::BatchNorm2d counts batches in whole numbers, which weights files do not hold. Also for N x channels.
-class BatchNormImpl : public torch::nn::Module {
- public:
-  explicit BatchNormImpl(int channels);
-  torch::Tensor forward(const torch::Tensor& x);
-
- private:
-  torch::Tensor weight_, bias_, mean_, variance_;
-};
-TORCH_MODULE(BatchNorm);
 
 class SkyCnnImpl : public torch::nn::Module {
  public:
