@@ -1,199 +1,46 @@
 #!/usr/bin/env bash
-# Measures everything and writes docs/results.md. Each section stands between HTML comments, so that one can be measured again
-# without touching the others.
+# Brings docs/results.json, docs/results.md and the figures of README.md to what a whole run of `faceprobe eval paper` measured. The two pages are
+# made from docs/results.json alone, and a test holds them to it.
 #
-#   bench/results.sh --data DIR [BUILD_DIR]
-#   bench/results.sh --data DIR --only direction [BUILD_DIR]     one of: best_case separation highlight highlight_makehuman
-#                                                                highlight_photos highlight_people highlight_net geometry
-#                                                                shading relight region_photos surface_photos robustness
-#                                                                direction speed insert insert_cycles triangulate
-#                                                                synth_cycles synth_speed synth_rate
-#   bench/results.sh --data DIR --faces FACES ...                for highlight, highlight_people, geometry and shading: the dev
-#                                                                faces of docs/training.md; they are left as they are without them
-#   bench/results.sh --data DIR --training FACES ...             for highlight_people and relight: the training faces, likewise
-#   bench/results.sh --data DIR --light FACES ...                for relight and insert: the faces for it, likewise
-#   bench/results.sh --data DIR --groups FACES ...               for triangulate: groups of faces, likewise
-#
-# BUILD_DIR (build/test) is built with FACEPROBE_BUILD_BENCH=ON, and FACEPROBE_TRAIN=ON for those of highlight layers; speed and
-# synth_rate measure the command of build/release, which scripts/build.sh makes. Ends with 1 when a benchmark misses its bar; its section is
-# written all the same.
+#   bench/results.sh REPORT_DIR [BUILD_DIR]     takes REPORT_DIR/report.json; BUILD_DIR (build/test) has the command with FACEPROBE_TRAIN=ON
+#   bench/results.sh --again [BUILD_DIR]        writes the pages again from docs/results.json
+#   bench/results.sh --check [BUILD_DIR]        writes nothing; ends with 1 where a page is another than that
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-sections=(best_case separation highlight highlight_makehuman highlight_photos highlight_people highlight_net geometry shading
-          relight region_photos surface_photos robustness direction speed insert insert_cycles triangulate synth_cycles synth_speed synth_rate)
-data=
-faces=
-training=
-light=
-groups=
-only=
-build=$root/build/test
-while [ $# -gt 0 ]; do
-  case $1 in
-    --data) data=${2:?--data takes a folder}; shift ;;
-    --faces) faces=${2:?--faces takes a folder}; shift ;;
-    --training) training=${2:?--training takes a folder}; shift ;;
-    --light) light=${2:?--light takes a folder}; shift ;;
-    --groups) groups=${2:?--groups takes a folder}; shift ;;
-    --only) only=${2:?--only takes a section}; shift ;;
-    -*) echo "unknown option $1; there are --data, --faces, --training, --light, --groups and --only." >&2; exit 2 ;;
-    *) build=$1 ;;
-  esac
-  shift
-done
-[ -d "$data" ] || { echo "--data must name the data folder that docs/data.md describes." >&2; exit 2; }
-if [ -n "$only" ] && [[ " ${sections[*]} " != *" $only "* ]]; then
-  echo "--only takes one of: ${sections[*]}; found '$only'." >&2
-  exit 2
-fi
-data=$(cd "$data" && pwd)
-build=$(cd "$build" && pwd)
-results=$root/docs/results.md
+[ $# -ge 1 ] || { echo "usage: bench/results.sh REPORT_DIR|--again|--check [BUILD_DIR]" >&2; exit 2; }
+what=$1
+faceprobe=${2:-$root/build/test}/bin/faceprobe
+[ -x "$faceprobe" ] || { echo "there is no $faceprobe; scripts/test.sh builds it." >&2; exit 2; }
+json=$root/docs/results.json
+case $what in
+  --again | --check) ;;
+  *)
+    [ -f "$what/report.json" ] || { echo "there is no report.json in $what; \`faceprobe eval paper\` writes one." >&2; exit 2; }
+    cp "$what/report.json" "$json"
+    ;;
+esac
 
-title_of() {
-  case $1 in
-    best_case) echo "Light, with everything else known" ;;
-    separation) echo "Highlight separation on objects" ;;
-    highlight) echo "Highlight layers of synthetic faces" ;;
-    highlight_makehuman) echo "Layers of another model's heads" ;;
-    highlight_photos) echo "Highlight layers of photos" ;;
-    highlight_people) echo "Finetuning on photos of people" ;;
-    highlight_net) echo "What the network costs" ;;
-    geometry) echo "Normals and regions of synthetic faces" ;;
-    shading) echo "Albedo and shading of synthetic faces" ;;
-    relight) echo "Light of synthetic faces, and what it does to an object" ;;
-    region_photos) echo "Regions of photos" ;;
-    surface_photos) echo "Albedo of photos" ;;
-    robustness) echo "Many kinds of photo" ;;
-    direction) echo "Known light directions on real faces" ;;
-    speed) echo "Time and memory" ;;
-    insert) echo "Inserted objects against the same in the true light" ;;
-    insert_cycles) echo "Drawn objects against Blender's Cycles" ;;
-    triangulate) echo "Lamps placed from several faces" ;;
-    synth_cycles) echo "Synthetic faces against Blender's Cycles" ;;
-    synth_speed) echo "Light on synthetic faces: cost by number of maps" ;;
-    synth_rate) echo "Synthetic faces: samples a second" ;;
-  esac
-}
-
-# As a reader would type it.
-command_of() {
-  case $1 in
-    highlight)
-      echo "BUILD/bin/faceprobe eval highlight --data FACES --weights 'highlights alone=models/highlight.safetensors'" \
-        "--weights net=models/face.safetensors" ;;
-    geometry | shading) echo "BUILD/bin/faceprobe eval $1 --data FACES --weights net=models/face.safetensors --samples 200" ;;
-    relight)
-      echo "BUILD/bin/faceprobe eval relight --data LIGHT --object DIR/objects/stanford-bunny.obj --scenes DIR/hdri/dev.csv" \
-        "--training TRAINING --ablation --samples 50" ;;
-    highlight_makehuman) echo "bench/makehuman.sh --data DIR" ;;
-    highlight_people) echo "bench/people.sh --data DIR --faces FACES --training TRAINING" ;;
-    speed) echo "bench/speed.sh" ;;
-    insert) echo "BUILD/bin/faceprobe eval insert --data LIGHT --samples 50" ;;
-    insert_cycles) echo "BUILD/bin/bench_insert_cycles --object DIR/objects/stanford-bunny.obj --maps DIR/hdri/dev --map-count 1 --size 128 --samples 1024 --our-samples 2048" ;;
-    triangulate) echo "BUILD/bin/faceprobe eval triangulate --data GROUPS" ;;
-    synth_speed) echo "BUILD/bin/bench_synth_speed" ;;
-    synth_rate) echo "bench/synth_rate.sh --data DIR" ;;
-    *) echo "BUILD/bin/bench_$1 --data DIR" ;;
-  esac
-}
-
-run_section() {
-  case $1 in
-    highlight)
-      "$build/bin/faceprobe" eval highlight --data "$faces" --weights "highlights alone=$root/models/highlight.safetensors" \
-        --weights net="$root/models/face.safetensors" ;;
-    geometry | shading)
-      "$build/bin/faceprobe" eval "$1" --data "$faces" --weights net="$root/models/face.safetensors" --samples 200 ;;
-    relight)
-      "$build/bin/faceprobe" eval relight --data "$light" --object "$data/objects/stanford-bunny.obj" --scenes "$data/hdri/dev.csv" \
-        --training "$training" --ablation --samples 50 ;;
-    highlight_makehuman) "$root/bench/makehuman.sh" --data "$data" "$build" ;;
-    highlight_people) "$root/bench/people.sh" --data "$data" --faces "$faces" --training "$training" "$build" ;;
-    speed) "$root/bench/speed.sh" ;;
-    insert) "$build/bin/faceprobe" eval insert --data "$light" --samples 50 ;;
-    insert_cycles) "$build/bin/bench_insert_cycles" --object "$data/objects/stanford-bunny.obj" --maps "$data/hdri/dev" --map-count 1 --size 128 --samples 1024 \
-        --our-samples 2048 ;;
-    triangulate) "$build/bin/faceprobe" eval triangulate --data "$groups" ;;
-    synth_speed) "$build/bin/bench_synth_speed" ;;
-    synth_rate) "$root/bench/synth_rate.sh" --data "$data" ;;
-    *) "$build/bin/bench_$1" --data "$data" ;;
-  esac
-}
-
-# What speed depends on, without naming anybody's machine.
-machine() {
-  local level= v
-  for v in "2 sse4_2" "3 avx2" "4 avx512vl"; do
-    if grep -qw "${v#* }" /proc/cpuinfo; then level=", x86-64-v${v% *}"; fi
-  done
-  echo "$(nproc) cores$level"
-}
-
-# The section as the file has it now, without its markers; empty when there is none.
-kept_section() {
-  [ -f "$results" ] || return 0
-  awk -v begin="<!-- begin $1 -->" -v end="<!-- end $1 -->" '$0 == end {on = 0} on {print} $0 == begin {on = 1}' "$results"
-}
-
-status=0
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-for section in "${sections[@]}"; do
-  kept_section "$section" >"$work/$section"
-  if [ -n "$only" ] && [ "$only" != "$section" ]; then continue; fi
-  if [[ $section =~ ^(highlight|geometry|shading)$ ]] && [ -z "$faces" ]; then
-    echo "results: $section is left as it is; --faces names the synthetic faces to measure on." >&2
-    continue
-  fi
-  if [ "$section" = highlight_people ] && { [ -z "$faces" ] || [ -z "$training" ]; }; then
-    echo "results: highlight_people is left as it is; --faces and --training name the synthetic faces of docs/training.md." >&2
-    continue
-  fi
-  if [ "$section" = relight ] && { [ -z "$light" ] || [ -z "$training" ]; }; then
-    echo "results: relight is left as it is; --light and --training name the synthetic faces of docs/training.md." >&2
-    continue
-  fi
-  if { [ "$section" = insert ] && [ -z "$light" ]; } || { [ "$section" = triangulate ] && [ -z "$groups" ]; }; then
-    echo "results: $section is left as it is; --light and --groups name the synthetic faces of docs/training.md." >&2
-    continue
-  fi
-  echo "results: $section" >&2
-  code=0
-  run_section "$section" >"$work/output" || code=$?
-  # Only robustness has a bar, and says so with 1; any other failure leaves half a table.
-  if { [ "$code" -ne 0 ] && [ "$section:$code" != robustness:1 ]; } || [ ! -s "$work/output" ]; then
-    echo "results: $section ended with $code; its section stays as it was." >&2
-    status=1
-    continue
-  fi
-  [ "$code" -eq 0 ] || { echo "results: $section missed its bar." >&2; status=1; }
-  {
-    printf '## %s\n\n`%s`, on %s.\n\n' "$(title_of "$section")" "$(command_of "$section")" "$(machine)"
-    # Nobody's folders are published.
-    sed -e "s|$data|DIR|g" -e "s|$build|BUILD|g" ${faces:+-e "s|$faces|FACES|g"} ${training:+-e "s|$training|TRAINING|g"} ${light:+-e "s|$light|LIGHT|g"} ${groups:+-e "s|$groups|GROUPS|g"} \
-      -e "s|$root/||g" "$work/output"
-  } | cat -s >"$work/$section"
-done
-
-target=$(mktemp "$results.XXXXXX")
 {
-  cat <<'END'
-# Results
+  printf '%s\n\n' "<!-- Written by bench/results.sh from results.json, which \`faceprobe eval paper\` wrote; edit neither. -->"
+  "$faceprobe" eval results "$json"
+} >"$work/results.md"
+"$faceprobe" eval results --headlines "$json" >"$work/headlines"
+grep -q '^<!-- begin figures -->$' "$root/README.md" || { echo "README.md has no place for the figures." >&2; exit 1; }
+awk -v figures="$work/headlines" '
+  $0 == "<!-- end figures -->" {skipped = 0}
+  !skipped {print}
+  $0 == "<!-- begin figures -->" {while ((getline line <figures) > 0) print line; skipped = 1}' "$root/README.md" >"$work/README.md"
 
-Written by `bench/results.sh --data DIR [BUILD]`; edit the benchmarks, not this page. DIR is the data folder that
-[data.md](data.md) describes, BUILD a build with benchmarks and training (`scripts/test.sh` makes one), FACES the dev faces of
-[training.md](training.md). Every section names the command that printed it.
-Light is measured against light that is known: rendered, or set up by whoever took the pictures.
-END
-  for section in "${sections[@]}"; do
-    [ -s "$work/$section" ] || continue
-    printf '\n<!-- begin %s -->\n' "$section"
-    cat "$work/$section"
-    printf '<!-- end %s -->\n' "$section"
+if [ "$what" = --check ]; then
+  status=0
+  for page in docs/results.md README.md; do
+    diff -u "$root/$page" "$work/$(basename "$page")" || status=1
   done
-} >"$target"
-chmod 644 "$target"
-mv "$target" "$results"
-exit "$status"
+  [ $status = 0 ] || echo "These pages do not say what docs/results.json holds; bench/results.sh --again writes them." >&2
+  exit $status
+fi
+cp "$work/results.md" "$root/docs/results.md"
+cp "$work/README.md" "$root/README.md"

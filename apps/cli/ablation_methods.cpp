@@ -1,7 +1,11 @@
 #include "ablation_methods.h"
 
+#include "faceprobe/core/color.h"
+#include "faceprobe/core/resample.h"
+#include "faceprobe/synth/sensor.h"
 #include "shared_estimate.h"
 
+#include <algorithm>
 #include <memory>
 
 namespace faceprobe::cli {
@@ -23,6 +27,17 @@ Observations one_skin(Observations o) {
 Observations without_horizon(Observations o) {
   o.horizon.resize(0, 0);
   return o;
+}
+
+// What recolouring is told by; the paper's solver asks for nothing else of clipped pixels.
+Observations nothing_clipped(Observations o) {
+  o.clipped.setZero();
+  return o;
+}
+
+ByteImage of_half_size(const ByteImage& photo) {
+  return encode_srgb(resampled(decode_srgb(photo),
+                               shrunk(photo.width(), photo.height(), std::max(photo.width(), photo.height()) / 2)));
 }
 
 // On a grid of its own, brought back to the others'.
@@ -63,11 +78,27 @@ std::vector<eval::LightMethod> ablation_methods(const RelightRows& rows) {
   }));
   methods.push_back(other_solver("one kind of skin for all regions", shared,
                                  [shared](const Observations& o) { return shared->light_of(one_skin(o)).radiance; }));
-  changed("paper's solver", [](EstimateOptions& o) { o.solve.solver = lighting::Solver::kPaper; });
+  changed("no Fresnel term", [](EstimateOptions& o) { o.solve.fresnel = lighting::Fresnel::kConstant; });
+  EstimateOptions paper = base;
+  paper.solve.solver = lighting::Solver::kPaper;
+  const auto by_paper = std::make_shared<SharedEstimate>(paper);
+  methods.push_back(whole("paper's solver", by_paper));
+  methods.push_back(other_solver("paper's solver, no recolouring", by_paper, [by_paper](const Observations& o) {
+    return by_paper->light_of(nothing_clipped(o)).radiance;
+  }));
   changed("paper's solver, 10 iterations", [](EstimateOptions& o) {
     o.solve.solver = lighting::Solver::kPaper;
     o.solve.iterations = 10;
   });
+  const auto seen = [&](const std::string& name, const std::function<ByteImage(const ByteImage&)>& change) {
+    methods.push_back(whole(name, std::make_shared<SharedEstimate>(base, change)));
+  };
+  for (const int quality : {75, 40, 15}) {
+    seen("photo as a JPEG of quality " + std::to_string(quality),
+         [quality](const ByteImage& photo) { return synth::jpeg_round_trip(photo, quality, true); });
+  }
+  seen("photo of half the size", of_half_size);
+  seen("photo exposed a stop more", [](const ByteImage& photo) { return encode_srgb(decode_srgb(photo), 2); });
   return methods;
 }
 

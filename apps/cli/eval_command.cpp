@@ -1,5 +1,6 @@
 #include "commands.h"
 #include "eval_paper.h"
+#include "eval_results.h"
 #include "eval_stages.h"
 #include "faceprobe/core/error.h"
 
@@ -111,8 +112,9 @@ void add_eval(CLI::App& program, Action& action) {
       "  faceprobe eval export-cases --data faces/dev --samples 20 -o cases\n"
       "  faceprobe eval cases --data cases --method \"mine=python3 mine.py {case} {out}\" -o out");
   const CLI::App* paper = add_eval_paper(*command, action);
-  command->callback([options, paper, &action] {
-    if (!paper->parsed()) action = [options] { return run(*options); };
+  const CLI::App* results = add_eval_results(*command, action);
+  command->callback([options, paper, results, &action] {
+    if (!paper->parsed() && !results->parsed()) action = [options] { return run(*options); };
   });
 }
 

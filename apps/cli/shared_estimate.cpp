@@ -14,7 +14,8 @@ const FaceEstimate* SharedEstimate::of(const eval::LightInput& input) {
     known_ = input.number;
     found_.reset();
     try {
-      pipeline::Estimate estimate = estimator_.estimate(io::photo_from_srgb(input.photo.photo));
+      pipeline::Estimate estimate =
+          estimator_.estimate(io::photo_from_srgb(seen_ ? seen_(input.photo.photo) : input.photo.photo));
       found_ = std::move(estimate.faces[estimate.largest]);
     } catch (const Error& error) {
       if (error.code() != ExitCode::kNoFace) throw;

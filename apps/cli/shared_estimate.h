@@ -14,7 +14,9 @@ namespace faceprobe::cli {
 
 class SharedEstimate {
  public:
-  explicit SharedEstimate(pipeline::EstimateOptions options) : estimator_(std::move(options)) {}
+  // `seen`: what is done to the photo (sRGB) before it is looked at; empty = nothing.
+  explicit SharedEstimate(pipeline::EstimateOptions options, std::function<ByteImage(const ByteImage&)> seen = {})
+      : estimator_(std::move(options)), seen_(std::move(seen)) {}
 
   const pipeline::EstimateOptions& options() const { return estimator_.options(); }
   lighting::Light light_of(const lighting::Observations& o) const { return estimator_.light_of(o); }
@@ -23,6 +25,7 @@ class SharedEstimate {
 
  private:
   pipeline::Estimator estimator_;
+  std::function<ByteImage(const ByteImage&)> seen_;
   std::optional<pipeline::FaceEstimate> found_;
   int known_ = -1;
 };

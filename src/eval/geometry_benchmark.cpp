@@ -24,14 +24,6 @@ double degrees_between(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
   return degrees(std::atan2(static_cast<double>(a.cross(b).norm()), static_cast<double>(a.dot(b))));
 }
 
-// How far the head is turned from the camera, either way.
-std::string turn_of(const SyntheticPhoto& photo) {
-  if (photo.view.faces.empty()) return "unknown";
-  const float forward = std::clamp(photo.view.faces.front().camera_from_head.linear()(2, 2), -1.0F, 1.0F);
-  const double angle = degrees(std::acos(static_cast<double>(forward)));
-  return angle < 15 ? "under 15" : angle < 30 ? "15 to 30" : "30 and more";
-}
-
 double mean_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
@@ -92,7 +84,7 @@ struct Gathered {
 
 ScoreRow row_of(const GeometryMethod& method, int number, const SyntheticPhoto& photo, const GeometryEstimate& found,
                 const ByteImage& judged, Gathered& gathered) {
-  ScoreRow row{method.name, std::to_string(number), {{"tone", photo.tone()}, {"turn", turn_of(photo)}}, {}};
+  ScoreRow row{method.name, std::to_string(number), {{"tone", photo.tone()}, {"turn", photo.turn()}}, {}};
   std::vector<double> all;
   std::array<std::vector<double>, kRegionCount> parts;
   const bool there = !found.normal_cam.empty();
@@ -176,7 +168,7 @@ GeometryScores measure_geometry(const synth::ShardReader& faces, const std::vect
   if (const std::string problem = options.validate(); !problem.empty()) throw Error(ExitCode::kUsage, problem);
   GeometryScores scores;
   scores.table.order_labels("tone", tone_names());
-  scores.table.order_labels("turn", {"under 15", "15 to 30", "30 and more"});
+  scores.table.order_labels("turn", turn_names());
   std::vector<Gathered> gathered(methods.size());
   visit_photos(faces, options.samples, options.progress, [&](int number, const SyntheticPhoto& photo) {
     std::vector<GeometryEstimate> found;

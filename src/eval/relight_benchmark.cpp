@@ -74,6 +74,7 @@ RelightScores measure_relighting(const synth::ShardReader& faces, const std::vec
   const SphereGrid grid(options.nside);
   RelightScores scores;
   scores.table.order_labels("tone", tone_names());
+  scores.table.order_labels("turn", turn_names());
   RelightSheet sheet(object, grid, options.rows, static_cast<int>(methods.size()));
   int visited = 0;
   visit_photos(faces, options.samples, options.progress, [&](int number, const SyntheticPhoto& photo) {
@@ -81,8 +82,8 @@ RelightScores measure_relighting(const synth::ShardReader& faces, const std::vec
     const Eigen::MatrixX3f truth = grid_from_env_map(photo.sample.environment, grid);
     const bool one_lamp = has_dominant_light(truth, grid);
     const std::optional<Sun> sun = one_lamp ? sun_of(truth, grid) : std::nullopt;
-    std::map<std::string, std::string> groups = {{"tone", photo.tone()},
-                                                 {"light", one_lamp ? "one lamp" : "several or soft"}};
+    std::map<std::string, std::string> groups = {
+        {"tone", photo.tone()}, {"turn", photo.turn()}, {"light", one_lamp ? "one lamp" : "several or soft"}};
     if (options.scene) groups["scene"] = options.scene(photo.sample.map);
     const bool drawn = sheet.takes(visited++, options.samples);
     if (drawn) sheet.begin_row(photo.sample.photo, truth);

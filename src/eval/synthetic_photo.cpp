@@ -1,9 +1,11 @@
 #include "eval/synthetic_photo.h"
 
+#include "faceprobe/core/angles.h"
 #include "faceprobe/core/region.h"
 #include "faceprobe/eval/skin_tone.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace faceprobe::eval {
 
@@ -59,6 +61,13 @@ std::string SyntheticPhoto::tone() const {
   return std::string(skin_tone_name(skin_tone(ita_deg(albedo / count))));
 }
 
+std::string SyntheticPhoto::turn() const {
+  if (view.faces.empty()) return "unknown";
+  const float forward = std::clamp(view.faces.front().camera_from_head.linear()(2, 2), -1.0F, 1.0F);
+  const double angle = degrees(std::acos(static_cast<double>(forward)));
+  return angle < 15 ? "under 15" : angle < 30 ? "15 to 30" : "30 and more";
+}
+
 std::vector<int> evenly_chosen(const synth::ShardReader& faces, int count) {
   std::vector<int> numbers;
   numbers.reserve(static_cast<std::size_t>(count));
@@ -85,5 +94,7 @@ std::vector<std::string> tone_names() {
   for (const SkinTone tone : kSkinTones) tones.emplace_back(skin_tone_name(tone));
   return tones;
 }
+
+std::vector<std::string> turn_names() { return {"under 15", "15 to 30", "30 and more"}; }
 
 }  // namespace faceprobe::eval

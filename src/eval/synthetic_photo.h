@@ -28,6 +28,8 @@ struct SyntheticPhoto {
   bool enough_skin() const;   // to judge by: 5 %
   // The skin's tone from the true albedo (skin_tone.h).
   std::string tone() const;
+  // How far the head is turned from the camera, either way, in degrees: one of turn_names(), or "unknown" where there is no head.
+  std::string turn() const;
 
  private:
   ByteImage no_mask_;
@@ -43,5 +45,7 @@ void visit_photos(const synth::ShardReader& faces, int count, const std::functio
 
 // Names of the skin tones from light to dark, as tables order them.
 std::vector<std::string> tone_names();
+// Those of its turns, from the front.
+std::vector<std::string> turn_names();
 
 }  // namespace faceprobe::eval

@@ -194,7 +194,7 @@ Light solve_transport(const Observations& observations, const SolveOptions& opti
     throw std::invalid_argument("The expected light must have one radiance per cell, not negative.");
   if (observations.count() == 0) return light;
 
-  const Transport transport = build_transport(observations, grid, options.threads);
+  const Transport transport = build_transport(observations, grid, options.threads, options.fresnel);
   Observations patches = observations;
   const float weight = patches.weight.sum();
   // Uniform radiance L gives a shading of at most L, so the mean shading is the right order of magnitude to start from.

@@ -9,7 +9,20 @@
 
 namespace faceprobe::lighting {
 
-Transport build_transport(const Observations& observations, const SphereGrid& grid, int threads) {
+namespace {
+
+Microfacet skin_of(const Observations& observations, int patch, Fresnel fresnel) {
+  Microfacet skin{.roughness = observations.roughness[patch], .specular_albedo = observations.specular_albedo[patch]};
+  if (fresnel == Fresnel::kConstant) {
+    skin.specular_albedo *= skin.f0;
+    skin.f0 = 1;  // Schlick's term is 1 at every angle then
+  }
+  return skin;
+}
+
+}  // namespace
+
+Transport build_transport(const Observations& observations, const SphereGrid& grid, int threads, Fresnel fresnel) {
   if (const std::string fault = observations.validate(); !fault.empty()) throw std::invalid_argument(fault);
   const auto solid_angle = static_cast<float>(grid.cell_solid_angle());
   const bool shadowed = observations.horizon.rows() > 0;
@@ -21,7 +34,7 @@ Transport build_transport(const Observations& observations, const SphereGrid& gr
     for (int i = first; i < last; ++i) {
       const Eigen::Vector3f normal = observations.normal.row(i).transpose();
       const Eigen::Vector3f view = observations.view.row(i).transpose();
-      const Microfacet skin{.roughness = observations.roughness[i], .specular_albedo = observations.specular_albedo[i]};
+      const Microfacet skin = skin_of(observations, i, fresnel);
       HorizonProfile profile{};
       if (shadowed) profile = horizon_profile(observations.horizon.row(i));
       for (int j = 0; j < grid.cell_count(); ++j) {

@@ -27,4 +27,11 @@ case_eval_paper() {
   rm report/cache/{highlights,relighting,triangulation}-*.json
   expect_exit 0 "${arguments[@]}"
   cmp first.json report/report.json || fail "the second time it measures something else"
+
+  # Its figures as a page, from the JSON alone.
+  expect_exit 0 eval results report/report.json
+  cmp "$work/stdout" report/report.md || fail "the page is another than the report's"
+  expect_exit 0 eval results --headlines report/report.json
+  grep -q "^| Highlight layer" "$work/stdout" || fail "no headline of the highlights"
+  expect_refused 3 "not what faceprobe wrote" eval results report/report.csv
 }

@@ -274,6 +274,18 @@ TEST(PaperReport, JsonHasTheValues) {
   EXPECT_FALSE(has(json.dump(), "base64"));
 }
 
+TEST(PaperReport, JsonIsReadBackButForThePictures) {
+  PaperReport report{.title = "T", .made_with = "M", .sections = {full_section()}};
+  const PaperReport back = report_from_json(report_json(report));
+  EXPECT_EQ(report_markdown(back), report_markdown(report));
+  EXPECT_EQ(report_csv(back), report_csv(report));  // exact numbers
+  ASSERT_EQ(back.sections.size(), 1U);
+  EXPECT_EQ(back.sections[0].pictures.size(), report.sections[0].pictures.size());
+  EXPECT_TRUE(back.sections[0].pictures[0].picture.empty());
+  for (const char* text : {"", "[]", "{}", R"({"title": "T", "made_with": "", "sections": [{}]})"})
+    EXPECT_THROW(report_from_json(text), Error) << text;
+}
+
 TEST(PaperReport, CsvHasOneLineAValue) {
   ReportTable table = small_report_table();
   table.title = "a, \"b\"";

@@ -1,5 +1,6 @@
 #include "faceprobe/lighting/transport.h"
 
+#include "faceprobe/core/microfacet.h"
 #include "synthetic_face.h"
 
 #include <gtest/gtest.h>
@@ -29,6 +30,29 @@ TEST(Transport, MirrorLightPeaksInTheMirrorDirection) {
   const Eigen::Vector3d n = one.normal.row(0).transpose().cast<double>();
   const Eigen::Vector3d mirrored = 2 * n.z() * n - Eigen::Vector3d::UnitZ();
   EXPECT_LT(angle_between_deg(grid.direction(static_cast<int>(best)).cast<double>(), mirrored), 3.7);  // one cell
+}
+
+TEST(Transport, FresnelIsConstantAtNormalIncidenceAndGrowsFromThere) {
+  const SphereGrid grid(16);
+  Observations two;
+  two.resize(2);
+  two.normal.row(0) = Eigen::RowVector3f(0, 0, 1);
+  two.normal.row(1) = direction_from_angles(75, 0).transpose().cast<float>();
+  two.view.rowwise() = Eigen::RowVector3f(0, 0, 1);
+  const RowMatrix with = build_transport(two, grid).highlight;
+  const RowMatrix without = build_transport(two, grid, 0, Fresnel::kConstant).highlight;
+  for (int patch = 0; patch < 2; ++patch) {
+    for (int j = 0; j < grid.cell_count(); ++j) {
+      if (without(patch, j) < 1e-20F)
+        continue;  // the slopes there are next to none, and the numbers too small for a ratio
+      const Eigen::Vector3f half = (grid.direction(j) + Eigen::Vector3f::UnitZ()).normalized();
+      const float gain = schlick_fresnel(half.z(), kSkinF0) / kSkinF0;
+      ASSERT_NEAR(with(patch, j) / without(patch, j), gain, 1e-4F * gain);  // rounding
+    }
+  }
+  // Frontal skin mirrors what is before it, as at normal incidence; turned by 75 degrees it sees what comes from behind, several times as well.
+  EXPECT_NEAR(with.row(0).sum() / without.row(0).sum(), 1.0F, 0.1F);
+  EXPECT_GT(with.row(1).sum() / without.row(1).sum(), 2.0F);
 }
 
 TEST(Transport, HorizonCutsWhatItShould) {

@@ -17,13 +17,14 @@ Sections ablation_sections(const PaperPlan& plan) {
       .title = "What each part is worth",
       .text = "The whole estimate with one part changed at a time, on a sphere in the light that was found.",
       .missing =
-          "Not here: recolouring and the Fresnel term, which cannot be switched off; finetuning, whose rows "
-          "bench/people.sh prints; JPEG quality, pose and sizes of photos, which bench_robustness prints."};
+          "Finetuning, which changes the network of the highlights alone; its rows are printed by bench/people.sh."};
   section.tables = {table_of(scores.table, "diffuse", "Diffuse sphere, RMSE of 255", 1, ours),
                     table_of(scores.table, "glossy", "Glossy sphere, RMSE of 255", 1, ours)};
   if (scores.table.metrics().contains("main_light"))
     section.tables.push_back(table_of(scores.table, "main_light", "Main light, degrees", 1, ours));
   section.tables.push_back(table_by_group(scores.table, "diffuse", "tone", "Diffuse sphere by skin tone", 1, ours));
+  section.tables.push_back(
+      table_by_group(scores.table, "diffuse", "turn", "Diffuse sphere by turn of the head, degrees", 1, ours));
   section.plots = {bars_of(scores.table, "diffuse", "Diffuse sphere", "RMSE of 255", ours)};
   return {section};
 }

@@ -14,7 +14,9 @@ struct NamedNetwork {
   const char* name;
   const char* file;
 };
-constexpr NamedNetwork kRivals[] = {{"paper's network (MSCR)", "mscr.safetensors"}, {"shi 2017", "shi.safetensors"}};
+constexpr NamedNetwork kRivals[] = {{"paper's network (MSCR)", "mscr.safetensors"},
+                                    {"net, finetuned on photos of people", "finetuned.safetensors"},
+                                    {"shi 2017", "shi.safetensors"}};
 
 struct Methods {
   std::vector<eval::HighlightMethod> all;

@@ -118,6 +118,8 @@ struct PaperReport {
 std::string report_html(const PaperReport& report);
 // Tables and the plots' values; of a picture its title, caption and size. Missing values are null.
 std::string report_json(const PaperReport& report);
+// The same report but for its pictures, which are empty; numbers to the last digit. Throws Error(kInput) for any other text.
+PaperReport report_from_json(const std::string& text);
 // Every value of the tables, one a line: section, table, row, column, value, low, high; RFC 4180, numbers read back exactly.
 std::string report_csv(const PaperReport& report);
 // Titles, texts, commands and tables, best values bold; sections are "##".

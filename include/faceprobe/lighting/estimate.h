@@ -15,6 +15,7 @@
 
 #include "faceprobe/core/sphere_grid.h"
 #include "faceprobe/lighting/observations.h"
+#include "faceprobe/lighting/transport.h"
 
 #include <Eigen/Core>
 #include <string>
@@ -43,6 +44,7 @@ struct SolveOptions {
   // Pull of weakly observed cells towards the smooth light that the shading alone gives, see RichardsonLucyOptions: they stay near
   // it instead of soaking up the errors of the few grazing patches that see them.
   float prior_weight = 0.1F;
+  Fresnel fresnel = Fresnel::kSchlick;  // of the highlights
   // Steps of the per-channel stage that colours the luminance solution; few keep the colour smooth over the sphere.
   int colour_iterations = 6;
   int threads = 0;

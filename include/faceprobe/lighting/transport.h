@@ -10,6 +10,7 @@
 #include "faceprobe/lighting/observations.h"
 
 #include <Eigen/Core>
+#include <cstdint>
 
 namespace faceprobe::lighting {
 
@@ -20,7 +21,11 @@ struct Transport {
   RowMatrix diffuse;    // D, #patches x #cells
 };
 
+// Schlick's, or as at normal incidence everywhere, as the paper's lobes are: to measure what the term is worth.
+enum class Fresnel : std::uint8_t { kSchlick, kConstant };
+
 // Both at once, which halves the visibility tests. Throws std::invalid_argument for observations that do not validate.
-Transport build_transport(const Observations& observations, const SphereGrid& grid, int threads = 0);
+Transport build_transport(const Observations& observations, const SphereGrid& grid, int threads = 0,
+                          Fresnel fresnel = Fresnel::kSchlick);
 
 }  // namespace faceprobe::lighting

@@ -177,7 +177,7 @@ ReportPicture picture_from(const Json& json) {
   if (json.contains("png")) {
     out.picture = picture_of_data_uri(json.at("png").get<std::string>());
   } else {
-    out.picture = ByteImage(0, 0, json.at("channels").get<int>());
+    out.picture = ByteImage(0, 0, json.value("channels", 1));
   }
   return out;
 }
@@ -200,6 +200,17 @@ std::string report_json(const PaperReport& report) {
   Json sections = Json::array();
   for (const ReportSection& section : report.sections) sections.push_back(json_of(section, false));
   return dumped({{"title", report.title}, {"made_with", report.made_with}, {"sections", sections}});
+}
+
+PaperReport report_from_json(const std::string& text) {
+  try {
+    const Json json = Json::parse(text);
+    PaperReport report{.title = json.at("title"), .made_with = json.at("made_with")};
+    for (const Json& section : json.at("sections")) report.sections.push_back(section_from(section));
+    return report;
+  } catch (const Json::exception& problem) {
+    throw Error(ExitCode::kInput, std::string("The report is not what faceprobe wrote: ") + problem.what() + '.');
+  }
 }
 
 std::string section_json(const ReportSection& section) {

@@ -1,0 +1,45 @@
+#include "eval_results.h"
+
+#include "faceprobe/io/atomic_file.h"
+#include "faceprobe/io/data_files.h"
+#include "paper/headlines.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+
+namespace faceprobe::cli {
+
+namespace {
+
+struct ResultsOptions {
+  std::filesystem::path report;
+  bool headlines = false;
+};
+
+int run(const ResultsOptions& options) {
+  constexpr std::int64_t kMostBytes = std::int64_t{1} << 28;
+  const std::vector<std::byte> bytes = io::read_file(options.report, kMostBytes);
+  const eval::PaperReport report =
+      eval::report_from_json(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+  fmt::print("{}", options.headlines ? headlines(report) : eval::report_markdown(report));
+  return 0;
+}
+
+}  // namespace
+
+CLI::App* add_eval_results(CLI::App& eval, Action& action) {
+  auto options = std::make_shared<ResultsOptions>();
+  CLI::App* command = eval.add_subcommand("results", "prints the figures of a report as Markdown");
+  command->add_option("REPORT", options->report, "report.json that `faceprobe eval paper` wrote")
+      ->type_name("FILE")
+      ->required();
+  command->add_flag("--headlines", options->headlines, "the few figures that a first page quotes, instead of all");
+  command->footer("Example:\n  faceprobe eval results report/report.json > results.md");
+  command->callback([options, &action] { action = [options] { return run(*options); }; });
+  return command;
+}
+
+}  // namespace faceprobe::cli

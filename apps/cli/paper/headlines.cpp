@@ -1,0 +1,91 @@
+#include "paper/headlines.h"
+
+#include "faceprobe/core/error.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace faceprobe::cli {
+
+namespace {
+
+using eval::ReportTable;
+
+struct Headline {
+  const char* what;
+  const char* section;
+  const char* table;
+  const char* column;
+  int decimals;
+};
+constexpr std::array kHeadlines = {
+    Headline{"Highlight layer of the face's skin, RMSE of 255, mean of {:.0f} synthetic faces", "highlights",
+             "RMSE on the face's skin", "mean", 1},
+    Headline{"Diffuse object in the light that was found, RMSE of 255, mean of {:.0f} synthetic photos", "relighting",
+             "Diffuse object", "mean", 1},
+    Headline{"Strongest studio light, degrees from the nearest true one, median of {:.0f} real photos",
+             "direction_london", "Strongest light, degrees from the nearest true one", "median", 1},
+};
+
+// Beginnings of the names of rows that are no rivals: ours by another way, or told a part of the answer.
+constexpr std::array<std::string_view, 6> kNoRivals = {"transport without", "paper",    "net, finetuned",
+                                                       "all layers",        "truth in", "normals known"};
+
+const ReportTable* table_of(const eval::PaperReport& report, const Headline& line) {
+  for (const eval::ReportSection& section : report.sections) {
+    if (section.id != line.section) continue;
+    for (const ReportTable& table : section.tables) {
+      if (table.title == line.table) return &table;
+    }
+  }
+  return nullptr;
+}
+
+std::optional<double> value_of(const ReportTable& table, const ReportTable::Row& row, std::string_view column) {
+  const auto found = std::find(table.columns.begin(), table.columns.end(), column);
+  const auto index = static_cast<std::size_t>(found - table.columns.begin());
+  return index < row.values.size() ? row.values[index] : std::nullopt;
+}
+
+bool is_rival(const ReportTable::Row& row) {
+  return !row.ours && std::none_of(kNoRivals.begin(), kNoRivals.end(),
+                                   [&](std::string_view name) { return row.name.starts_with(name); });
+}
+
+// Empty where the report lacks one of the two.
+std::string line_of(const ReportTable& table, const Headline& line) {
+  std::optional<double> ours, photos, best;
+  std::string rival;
+  for (const ReportTable::Row& row : table.rows) {
+    const std::optional<double> value = value_of(table, row, line.column);
+    if (!value) continue;
+    if (row.ours && !ours) {
+      ours = value;
+      photos = value_of(table, row, "n");
+    } else if (is_rival(row) && (!best || *value < *best)) {
+      best = value;
+      rival = row.name;
+    }
+  }
+  if (!ours || !best) return {};
+  return fmt::format("| {} | {:.{}f} | {:.{}f} ({}) |\n", fmt::format(fmt::runtime(line.what), photos.value_or(0)),
+                     *ours, line.decimals, *best, line.decimals, rival);
+}
+
+}  // namespace
+
+std::string headlines(const eval::PaperReport& report) {
+  std::string lines;
+  for (const Headline& line : kHeadlines) {
+    if (const ReportTable* table = table_of(report, line)) lines += line_of(*table, line);
+  }
+  if (lines.empty()) throw Error(ExitCode::kInput, "The report has none of the figures that a first page quotes.");
+  return "| measured | Faceprobe | the best of the others |\n|---|---|---|\n" + lines;
+}
+
+}  // namespace faceprobe::cli

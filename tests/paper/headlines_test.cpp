@@ -1,0 +1,39 @@
+#include "paper/headlines.h"
+
+#include "faceprobe/core/error.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace faceprobe::cli::testing {
+namespace {
+
+eval::PaperReport with_rows(std::vector<eval::ReportTable::Row> rows) {
+  return {.title = "T",
+          .sections = {
+              {.id = "relighting",
+               .title = "S",
+               .tables = {{.title = "Glossy object", .columns = {"mean"}, .rows = {{.name = "other", .values = {1}}}},
+                          {.title = "Diffuse object", .columns = {"mean", "median", "n"}, .rows = std::move(rows)}}}}};
+}
+
+TEST(Headlines, AreOursAndTheBestRival) {
+  const std::string text = headlines(with_rows({{.name = "transport", .values = {28.26, 23, 97}, .ours = true},
+                                                {.name = "transport without the prior", .values = {20, 1, 97}},
+                                                {.name = "truth in harmonics of order 2", .values = {3, 1, 97}},
+                                                {.name = "knorr and kurz", .values = {41.5, 1, 97}},
+                                                {.name = "ambient", .values = {52, 1, 97}},
+                                                {.name = "failed", .values = {std::nullopt, std::nullopt, 0}}}));
+  EXPECT_NE(text.find("mean of 97 synthetic photos | 28.3 | 41.5 (knorr and kurz) |\n"), std::string::npos) << text;
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 3);  // two of head, one line: the other sections are not there
+}
+
+TEST(Headlines, NeedBothAndSaySo) {
+  EXPECT_THROW(headlines({.title = "T"}), Error);
+  EXPECT_THROW(headlines(with_rows({{.name = "transport", .values = {28}, .ours = true}})), Error);
+  EXPECT_THROW(headlines(with_rows({{.name = "ambient", .values = {28}}})), Error);
+}
+
+}  // namespace
+}  // namespace faceprobe::cli::testing
