@@ -2,21 +2,14 @@
 
 #include "faceprobe/core/region.h"
 #include "net/face_outputs.h"
+#include "train/smooth_error.h"
 
 #include <cmath>
 
 namespace faceprobe::train {
 namespace {
 
-constexpr double kCorner = 1e-3;  // where an absolute error is rounded off
-
-torch::Tensor smooth_abs(const torch::Tensor& x) { return (x.square() + kCorner * kCorner).sqrt() - kCorner; }
-
 torch::Tensor unit(const torch::Tensor& x) { return x / x.square().sum(1, true).clamp_min(1e-8).sqrt(); }
-
-torch::Tensor weighted_mean(const torch::Tensor& error, const torch::Tensor& weight) {
-  return (error * weight).sum() / (weight.sum() + 1e-6);
-}
 
 // Of each picture.
 torch::Tensor picture_mean(const torch::Tensor& values, const torch::Tensor& weight) {

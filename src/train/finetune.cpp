@@ -24,9 +24,9 @@
 namespace faceprobe::train {
 namespace {
 
-constexpr std::int64_t kRowEvery = 10;    // steps
-constexpr int kScoreRounds = 3;           // groups of photos of a person who is measured
-constexpr Eigen::Index kLeastSkin = 200;  // pixels of the square that a group of photos must share
+constexpr std::int64_t kFinetuneRowEvery = 10;  // steps
+constexpr int kScoreRounds = 3;                 // groups of photos of a person who is measured
+constexpr Eigen::Index kLeastSkin = 200;        // pixels of the square that a group of photos must share
 
 // As the weights were trained, so that what they know is kept by the loss they learnt it by.
 TrainConfig config_of(const std::filesystem::path& weights) {
@@ -153,7 +153,7 @@ class Finetuning {
     for (; step < run_.config.steps; ++step) {
       if (hooks_.stop && hooks_.stop()) break;
       counted += one_step(step, sum) ? 1 : 0;
-      if ((step + 1) % kRowEvery != 0 && step + 1 != run_.config.steps) continue;
+      if ((step + 1) % kFinetuneRowEvery != 0 && step + 1 != run_.config.steps) continue;
       const double n = static_cast<double>(std::max<std::int64_t>(1, counted));
       const double steps = static_cast<double>(step + 1 - told);
       told = step + 1;
@@ -327,7 +327,7 @@ class Finetuning {
   std::optional<BatchSource> source_;  // last: it reads faces_
 };
 
-std::string outside(const char* name, double value, const char* allowed) {
+std::string out_of_range(const char* name, double value, const char* allowed) {
   std::ostringstream text;
   text << name << " is " << value << "; allowed is " << allowed << '.';
   return text.str();
@@ -337,15 +337,17 @@ std::string outside(const char* name, double value, const char* allowed) {
 
 std::string FinetuneConfig::validate() const {
   if (mode != "default" && mode != "paper") return "mode is \"" + mode + "\"; there are default and paper.";
-  if (steps < 1 || steps > 1'000'000) return outside("steps", static_cast<double>(steps), "1 to 1e6");
-  if (photos < 2 || photos > 64) return outside("photos", photos, "2 to 64");
-  if (synthetic_batch < 0 || synthetic_batch > 4096) return outside("synthetic_batch", synthetic_batch, "0 to 4096");
-  if (!(learning_rate > 0 && learning_rate <= 1)) return outside("learning_rate", learning_rate, "above 0, to 1");
-  if (!(weight >= 0 && weight <= 1000)) return outside("weight", weight, "0 to 1000");
-  if (!(energy_weight >= 0 && energy_weight <= 100)) return outside("energy_weight", energy_weight, "0 to 100");
+  if (steps < 1 || steps > 1'000'000) return out_of_range("steps", static_cast<double>(steps), "1 to 1e6");
+  if (photos < 2 || photos > 64) return out_of_range("photos", photos, "2 to 64");
+  if (synthetic_batch < 0 || synthetic_batch > 4096)
+    return out_of_range("synthetic_batch", synthetic_batch, "0 to 4096");
+  if (!(learning_rate > 0 && learning_rate <= 1)) return out_of_range("learning_rate", learning_rate, "above 0, to 1");
+  if (!(weight >= 0 && weight <= 1000)) return out_of_range("weight", weight, "0 to 1000");
+  if (!(energy_weight >= 0 && energy_weight <= 100)) return out_of_range("energy_weight", energy_weight, "0 to 100");
   if (!(largest_gradient > 0 && largest_gradient <= 1e6))
-    return outside("largest_gradient", largest_gradient, "above 0, to 1e6");
-  if (!(held_out_share > 0 && held_out_share < 1)) return outside("held_out_share", held_out_share, "between 0 and 1");
+    return out_of_range("largest_gradient", largest_gradient, "above 0, to 1e6");
+  if (!(held_out_share > 0 && held_out_share < 1))
+    return out_of_range("held_out_share", held_out_share, "between 0 and 1");
   return {};
 }
 

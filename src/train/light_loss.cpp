@@ -12,8 +12,8 @@ namespace {
 
 constexpr float kFront = -0.05F;  // least z of a normal that a camera sees, with a little beyond the rim
 constexpr float kLobe = 15;  // exponent of a lobe a little narrower than skin's: the map should be sharper than the skin
-constexpr double kFloor = 0.03;   // of the level: darker light is all alike
-constexpr double kCorner = 0.03;  // where an absolute error is rounded off
+constexpr double kFloor = 0.03;        // of the level: darker light is all alike
+constexpr double kGlossCorner = 0.03;  // where an absolute error is rounded off
 constexpr double kLeastSquare = 1e-6;
 
 torch::Tensor normalised(const torch::Tensor& rows) { return rows / rows.sum(1, true); }
@@ -45,7 +45,7 @@ LightLoss::Terms LightLoss::terms(const torch::Tensor& found, const torch::Tenso
   const torch::Tensor glossy =
       (torch::matmul(lobe_rows_, found) + kFloor).log() - (torch::matmul(lobe_rows_, truth) + kFloor).log();
   return {(error.square().mean({1, 2}) + kLeastSquare).sqrt().mean(),
-          (glossy.square() + kCorner * kCorner).sqrt().mean() - kCorner};
+          (glossy.square() + kGlossCorner * kGlossCorner).sqrt().mean() - kGlossCorner};
 }
 
 }  // namespace faceprobe::train

@@ -1,17 +1,11 @@
 #include "train/loss.h"
 
+#include "train/smooth_error.h"
+
 namespace faceprobe::train {
 namespace {
 
-constexpr double kCorner =
-    1e-3;  // below, the absolute error is rounded off: an eighth of a code value in the middle of the range
 constexpr double kRootFloor = 1e-3;  // keeps the slope of the square root finite
-
-torch::Tensor smooth_abs(const torch::Tensor& x) { return (x.square() + kCorner * kCorner).sqrt() - kCorner; }
-
-torch::Tensor weighted_mean(const torch::Tensor& error, const torch::Tensor& weight) {
-  return (error * weight).sum() / (weight.sum() * static_cast<double>(error.size(1)) + 1e-6);
-}
 
 // Root mean square of each picture's error where the weight is, then the mean over pictures.
 torch::Tensor picture_rms(const torch::Tensor& error, const torch::Tensor& weight) {

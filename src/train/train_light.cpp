@@ -20,8 +20,8 @@
 namespace faceprobe::train {
 namespace {
 
-constexpr double kDarkest = 1e-4;       // of the level
-constexpr std::int64_t kAtOnce = 1024;  // examples validated together
+constexpr double kDarkest = 1e-4;               // of the level
+constexpr std::int64_t kExamplesAtOnce = 1024;  // examples validated together
 
 struct Examples {
   torch::Tensor features;  // N x inputs
@@ -191,8 +191,8 @@ class LightTraining {
     const torch::NoGradGuard no_grad;
     net_->eval();
     LightErrors sum;
-    for (std::int64_t first = 0; first < examples.count(); first += kAtOnce) {
-      const std::int64_t count = std::min(kAtOnce, examples.count() - first);
+    for (std::int64_t first = 0; first < examples.count(); first += kExamplesAtOnce) {
+      const std::int64_t count = std::min(kExamplesAtOnce, examples.count() - first);
       const LightLoss::Terms terms =
           loss_.terms(light_of(examples.features.narrow(0, first, count)), examples.light.narrow(0, first, count));
       const double share = static_cast<double>(count) / static_cast<double>(examples.count());

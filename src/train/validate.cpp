@@ -10,7 +10,7 @@
 namespace faceprobe::train {
 namespace {
 
-constexpr int kAtOnce = 16;
+constexpr int kPicturesAtOnce = 16;
 constexpr double kCodes = 255;
 
 // Root mean square of each picture over the pixels that count.
@@ -64,7 +64,7 @@ Validator::Validator(const synth::ShardReader& reader, const TrainConfig& config
   std::vector<int> samples;
   for (int i = 0; i < taken; ++i) {
     samples.push_back(static_cast<int>((static_cast<std::int64_t>(i) * reader.sample_count()) / taken));
-    if (static_cast<int>(samples.size()) < kAtOnce && i + 1 < taken) continue;
+    if (static_cast<int>(samples.size()) < kPicturesAtOnce && i + 1 < taken) continue;
     batches_.push_back(to_device(plain_batch(reader, samples, config), device));
     samples.clear();
   }
