@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds the product: the command `faceprobe`, without tests and benchmarks. The last line on stdout is the program's
+# Builds the product: the command `faceprobe`, its page and manual, and the libraries that `cmake --install` puts in place; no tests and benchmarks. The last line on stdout is the program's
 # path; everything else goes to stderr.
 #
 #   "$(scripts/build.sh)" --help
@@ -11,6 +11,6 @@ build=$root/build/release
   "$root/scripts/setup.sh"
   cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DFACEPROBE_UNITY=ON \
     -DFACEPROBE_BUILD_TESTS=OFF -DFACEPROBE_BUILD_BENCH=OFF
-  cmake --build "$build" --target faceprobe
+  cmake --build "$build"
 } >&2
 echo "$build/bin/faceprobe"

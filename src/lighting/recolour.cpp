@@ -1,7 +1,5 @@
 #include "faceprobe/lighting/recolour.h"
 
-#include <algorithm>
-
 namespace faceprobe::lighting {
 
 Eigen::MatrixX3f recolour_highlights(const Observations& observations) {
@@ -10,23 +8,17 @@ Eigen::MatrixX3f recolour_highlights(const Observations& observations) {
   constexpr float kLeastShare = 0.1F;
   Eigen::MatrixX3f recoloured = observations.highlight;
   for (Eigen::Index i = 0; i < observations.count(); ++i) {
-    if (!observations.clipped.row(i).any()) continue;
-    Eigen::RowVector3f shading = observations.shading.row(i);
+    const Eigen::RowVector3f shading = observations.shading.row(i);
     if (!(shading.maxCoeff() > 0)) continue;
-    shading = shading.cwiseMax(kLeastShare * shading.mean());
-    int reference = 2;
+    const Eigen::RowVector3f colour = shading.cwiseMax(kLeastShare * shading.mean());
+    int reference = 2;  // also where all are clipped: on skin blue is clipped last
     for (const int channel : {2, 1, 0}) {
       if (!observations.clipped(i, channel)) {
         reference = channel;
         break;
       }
     }
-    // Channels that are not clipped are right as they are; with everything clipped, blue stands for all (section 4.3).
-    for (int channel = 0; channel < 3; ++channel) {
-      if (!observations.clipped(i, channel) || channel == reference) continue;
-      const float rescaled = observations.highlight(i, reference) * shading[channel] / shading[reference];
-      recoloured(i, channel) = std::max(observations.highlight(i, channel), rescaled);
-    }
+    recoloured.row(i) = observations.highlight(i, reference) / colour[reference] * colour;
   }
   return recoloured;
 }

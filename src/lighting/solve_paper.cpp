@@ -1,3 +1,4 @@
+#include "faceprobe/core/angles.h"
 #include "faceprobe/core/microfacet.h"
 #include "faceprobe/core/parallel.h"
 #include "faceprobe/lighting/estimate.h"
@@ -8,13 +9,15 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <vector>
 
 namespace faceprobe::lighting {
 
 namespace {
 
-// Eq. 5: K_x(y) = k_s (L_y . L_x)^alpha, one row per observed direction x. Times the cell's solid angle, so that rows predict the
-// traced value.
+// Eq. 5: K_x(y) = k_s (L_y . L_x)^alpha, one row per observed direction x, times the cell's solid angle, so that rows predict the traced value.
+// Here k_s is a share of the light, rho_s over the lobe's integral, which Eq. 5 leaves out: else wider lobes of rough regions would count as
+// brighter skin.
 RowMatrix phong_kernel(const TracedMap& traced, const SphereGrid& grid, int threads) {
   RowMatrix kernel = RowMatrix::Zero(grid.cell_count(), grid.cell_count());
   const auto solid_angle = static_cast<float>(grid.cell_solid_angle());
@@ -22,14 +25,42 @@ RowMatrix phong_kernel(const TracedMap& traced, const SphereGrid& grid, int thre
     for (int x = first; x < last; ++x) {
       if (traced.weight[x] <= 0.0F) continue;
       const float alpha = phong_exponent(traced.roughness[x]);
+      const float peak = traced.specular_albedo[x] * (alpha + 1) / static_cast<float>(2 * kPi) * solid_angle;
       const Eigen::RowVector3f centre = grid.directions().row(x);
       for (int y = 0; y < grid.cell_count(); ++y) {
         const float cosine = grid.directions().row(y).dot(centre);
-        if (cosine > 0.0F) kernel(x, y) = traced.specular_albedo[x] * std::pow(cosine, alpha) * solid_angle;
+        if (cosine > 0.0F) kernel(x, y) = peak * std::pow(cosine, alpha);
       }
     }
   });
   return kernel;
+}
+
+// The paper's map has no scale. Of one gain for all channels, the one whose light gives the face as much shading as it has; 1 without shading.
+float gain_of_shading(const Observations& observations, const Eigen::MatrixX3f& radiance, const SphereGrid& grid,
+                      int threads) {
+  const RowMatrix diffuse = build_transport(observations, grid, threads).diffuse;
+  const float predicted = (observations.weight.transpose() * (diffuse * radiance)).sum();
+  const float found = (observations.weight.transpose() * observations.shading).sum();
+  return predicted > 0 && found > 0 ? found / predicted : 1.0F;
+}
+
+// Median of the cells that a highlight saw.
+Eigen::Vector3f ambient_of(const Light& light) {
+  std::vector<Eigen::Index> seen;
+  for (Eigen::Index j = 0; j < light.confidence.size(); ++j) {
+    if (light.confidence[j] > 0.5F) seen.push_back(j);
+  }
+  Eigen::Vector3f ambient = Eigen::Vector3f::Zero();
+  if (seen.empty()) return ambient;
+  for (int channel = 0; channel < 3; ++channel) {
+    const auto middle = seen.begin() + static_cast<std::ptrdiff_t>(seen.size() / 2);
+    std::nth_element(seen.begin(), middle, seen.end(), [&](Eigen::Index a, Eigen::Index b) {
+      return light.radiance(a, channel) < light.radiance(b, channel);
+    });
+    ambient[channel] = light.radiance(*middle, channel);
+  }
+  return ambient;
 }
 
 }  // namespace
@@ -66,6 +97,8 @@ Light solve_paper(const Observations& observations, const SolveOptions& options)
   for (int cell = 0; cell < grid.cell_count(); ++cell) {
     if (solved.sensitivity[cell] <= least) light.radiance.row(cell).setZero();
   }
+  light.radiance *= gain_of_shading(observations, light.radiance, grid, options.threads);
+  light.ambient = ambient_of(light);
   return light;
 }
 

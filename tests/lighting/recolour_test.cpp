@@ -15,26 +15,32 @@ Observations one_patch() {
   return o;
 }
 
-TEST(Recolour, UnclippedColourIsKept) {
-  const Observations o = one_patch();
-  EXPECT_TRUE(recolour_highlights(o) == o.highlight);
+void expect_row(const Eigen::MatrixX3f& rows, const Eigen::RowVector3f& wanted) {
+  for (int c = 0; c < 3; ++c) EXPECT_FLOAT_EQ(rows(0, c), wanted[c]) << "channel " << c;
 }
 
-TEST(Recolour, BlueIsTheReferenceWhenItIsFree) {
+TEST(Recolour, BlueSaysHowStrongAndTheShadingWhatColour) {
   Observations o = one_patch();
+  const Eigen::RowVector3f wanted(0.6F, 0.45F, 0.3F);  // .3 * (.8, .6, .4) / .4
+  expect_row(recolour_highlights(o), wanted);
   o.clipped.row(0) << true, true, false;
-  const Eigen::MatrixX3f h = recolour_highlights(o);
-  EXPECT_FLOAT_EQ(h(0, 0), 0.6F);   // .3 * .8 / .4
-  EXPECT_FLOAT_EQ(h(0, 1), 0.45F);  // .3 * .6 / .4
-  EXPECT_FLOAT_EQ(h(0, 2), 0.3F);
+  expect_row(recolour_highlights(o), wanted);
+  o.clipped.row(0) << true, true, true;
+  expect_row(recolour_highlights(o), wanted);
 }
 
 TEST(Recolour, GreenOrRedStandInForClippedBlue) {
   Observations o = one_patch();
   o.clipped.row(0) << false, false, true;
-  EXPECT_FLOAT_EQ(recolour_highlights(o)(0, 2), 0.3F);  // .2 * .4 / .6 = .13 is below what was seen: never lowered
-  o.highlight(0, 1) = 0.9F;
-  EXPECT_FLOAT_EQ(recolour_highlights(o)(0, 2), 0.6F);
+  expect_row(recolour_highlights(o), {0.2F * 8 / 6, 0.2F, 0.2F * 4 / 6});
+  o.clipped.row(0) << false, true, true;
+  expect_row(recolour_highlights(o), {0.1F, 0.075F, 0.05F});
+}
+
+TEST(Recolour, WithoutShadingTheColourIsKept) {
+  Observations o = one_patch();
+  o.shading.setZero();
+  EXPECT_TRUE(recolour_highlights(o) == o.highlight);
 }
 
 TEST(Recolour, WarmLightDoesNotExplode) {
@@ -43,7 +49,7 @@ TEST(Recolour, WarmLightDoesNotExplode) {
   o.clipped.row(0) << true, false, false;
   const Eigen::MatrixX3f h = recolour_highlights(o);
   EXPECT_TRUE(h.allFinite());
-  EXPECT_LE(h(0, 0), 0.3F * 1.0F / 0.05F + 1e-4F);  // blue floored at a tenth of the mean shading
+  EXPECT_FLOAT_EQ(h(0, 0), 0.3F * 1.0F / 0.05F);  // blue floored at a tenth of the mean shading
 }
 
 }  // namespace

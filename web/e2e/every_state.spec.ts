@@ -3,7 +3,7 @@ import { expectAccessible } from './accessible.ts';
 import { drop, openEstimate, partsOf } from './page.ts';
 import { nobody, pictureOf } from './pictures.ts';
 import { test, expect } from './served.ts';
-import { forget, postInsertion, postPhoto, samplePhoto } from './server.ts';
+import { forget, postInsertion, postPhoto, samplePhoto, whileHeld } from './server.ts';
 
 test('before a photo', async ({ page }, info) => {
   await page.goto('/');
@@ -22,8 +22,12 @@ test('at work', async ({ page, server, oneFace }, info) => {
   const slow = await postInsertion(server, oneFace.id, { object: 'robot', quality: 'final' });
   const { id } = await postPhoto(server, samplePhoto('astronaut.png'), 'Waiting.png');
   await page.goto(`/?estimate=${id}`);
-  await expect(page.getByRole('status')).toHaveText('Waiting for its turn');
-  await expectAccessible(page, info, 'waiting');
+  const waits = () => expect(page.getByRole('status')).toHaveText('Waiting for its turn');
+  await waits();
+  await whileHeld(server, async () => {
+    await expectAccessible(page, info, 'waiting');
+    await waits();
+  });
   await forget(server, `/insertions/${slow.id}`);
 });
 
@@ -49,7 +53,7 @@ test('two faces and their room', async ({ page, twoFaces }, info) => {
   await expectAccessible(page, info, 'two-faces');
 });
 
-test('rendering, which can be stopped', async ({ page, oneFace }, info) => {
+test('rendering, which can be stopped', async ({ page, server, oneFace }, info) => {
   await openEstimate(page, oneFace.id);
   const parts = partsOf(page);
   await page.getByRole('radio', { name: 'Final' }).check();
@@ -58,8 +62,11 @@ test('rendering, which can be stopped', async ({ page, oneFace }, info) => {
   await expect(parts.rendering).toBeHidden();
   await expect(parts.render).toBeEnabled();
   await expect(parts.rendered).toBeHidden();
-  // Once more, to be looked at; last, because a fast machine may be done before that is.
+  // Once more, to be looked at.
   await parts.render.click();
-  await expect(parts.rendering).toBeVisible();
-  await expectAccessible(page, info, 'rendering');
+  await expect(page.getByRole('status').filter({ hasText: 'Drawing' })).toBeVisible();
+  await whileHeld(server, async () => {
+    await expectAccessible(page, info, 'rendering');
+    await expect(parts.rendering).toBeVisible();
+  });
 });

@@ -1,5 +1,5 @@
 // The page's parts by the names that people hear, and what is done with them again and again.
-import { expect, type Page, type TestInfo } from '@playwright/test';
+import { expect, type Locator, type Page, type TestInfo } from '@playwright/test';
 import { mkdirSync } from 'node:fs';
 import { join } from 'node:path';
 
@@ -71,6 +71,20 @@ export async function drop(page: Page, photo: Photo): Promise<void> {
   );
   await page.locator('body').dispatchEvent('dragover', { dataTransfer: transfer });
   await page.locator('body').dispatchEvent('drop', { dataTransfer: transfer });
+}
+
+// A part once it has stopped to change, for what fades in or takes its time to be drawn; if `unlike` is given, not before it is another.
+export async function steady(part: Locator, unlike?: Buffer): Promise<Buffer> {
+  let last: Buffer = Buffer.alloc(0);
+  let alike = 0;
+  const look = async () => {
+    const now = await part.screenshot();
+    alike = now.equals(last) && !unlike?.equals(now) ? alike + 1 : 0;
+    last = now;
+    return alike;
+  };
+  await expect.poll(look, { message: 'it is drawn', intervals: [200], timeout: 90_000 }).toBeGreaterThan(2);
+  return last;
 }
 
 // For people to look at, in a folder beside the failures.

@@ -12,8 +12,8 @@ export default defineConfig({
   testDir: '.',
   outputDir: process.env.PAGE_TEST_OUTPUT ?? '../.test/e2e',
   workers: 1, // an estimate takes all processors
-  timeout: 90_000, // of one test, on two busy processors
-  expect: { timeout: 30_000 },
+  timeout: 180_000, // of one test, on two busy processors
+  expect: { timeout: 60_000 },
   reporter: [['list']],
   use: { browserName: 'chromium', viewport: { width: 1280, height: 900 } },
   projects: [

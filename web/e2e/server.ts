@@ -35,6 +35,16 @@ export async function stopServer(server: Server): Promise<void> {
   await ended;
 }
 
+// While `work` goes on the server does nothing, so that what the page shows stays as long as it is looked at, on a fast machine too.
+export async function whileHeld(server: Server, work: () => Promise<void>): Promise<void> {
+  server.process.kill('SIGSTOP');
+  try {
+    await work();
+  } finally {
+    server.process.kill('SIGCONT');
+  }
+}
+
 interface Job {
   state: string;
   error?: { kind: string; message: string };

@@ -1,10 +1,12 @@
 // The thing in the photo: where the preview shows it, the path tracer puts it.
 import { expectAccessible } from './accessible.ts';
-import { openEstimate, partsOf } from './page.ts';
+import { openEstimate, partsOf, steady } from './page.ts';
 import { differenceOf, sizeOfPng } from './pictures.ts';
 import { test, expect } from './served.ts';
 import { get, insertionOf, type Insertion } from './server.ts';
 import { readFileSync } from 'node:fs';
+
+test.slow(); // without a graphics card the preview takes its time
 
 interface InsertReport {
   object_box_m: { min: [number, number, number]; max: [number, number, number] };
@@ -17,12 +19,11 @@ test('dragging moves the thing, and rendering puts it there', async ({ page, ser
   const parts = partsOf(page);
   await expect(parts.readyStage).toBeVisible();
   await parts.facesShown.uncheck();
-  await page.waitForTimeout(400); // the preview fades in
-  const before = await parts.frame.screenshot();
   await parts.objectShown.uncheck();
-  const empty = await parts.frame.screenshot();
+  const empty = await steady(parts.frame);
   await parts.objectShown.check();
   await expect(parts.readyStage).toBeVisible();
+  const before = await steady(parts.frame, empty);
 
   const frame = (await parts.frame.boundingBox())!;
   const scale = frame.width / width;
@@ -34,8 +35,7 @@ test('dragging moves the thing, and rendering puts it there', async ({ page, ser
   await page.mouse.move(from.x + by.x, from.y + by.y, { steps: 3 });
   await page.mouse.up();
   await page.mouse.move(5, 5);
-  await page.waitForTimeout(400);
-  const after = await parts.frame.screenshot();
+  const after = await steady(parts.frame, before);
 
   const was = await differenceOf(page, before, empty);
   const is = await differenceOf(page, after, empty);
@@ -53,8 +53,7 @@ test('dragging moves the thing, and rendering puts it there', async ({ page, ser
 
   await expect(parts.rendered).toBeVisible();
   await expect(parts.rendered).toHaveJSProperty('complete', true);
-  await page.waitForTimeout(200);
-  const drawn = await differenceOf(page, await parts.frame.screenshot(), empty);
+  const drawn = await differenceOf(page, await steady(parts.frame, after), empty);
   for (const side of ['left', 'right', 'top', 'bottom'] as const)
     expect(Math.abs(drawn[side] - is[side]), `${side} of the thing, rendered and previewed`).toBeLessThan(0.03);
 

@@ -1,6 +1,6 @@
 // Dark or light, and how much moves.
 import { test, expect } from './served.ts';
-import { postInsertion, postPhoto, forget, samplePhoto } from './server.ts';
+import { postInsertion, postPhoto, forget, samplePhoto, whileHeld } from './server.ts';
 
 test("the theme is the system's, until one is chosen, and then that, also after a reload", async ({ page }) => {
   const dark = page.getByRole('switch', { name: 'Dark' });
@@ -25,8 +25,11 @@ test('nothing moves by itself for those who do not want it', async ({ page, serv
   const moving = () => page.evaluate(() => document.getAnimations().length);
   await page.goto(`/?estimate=${id}`);
   await expect(page.getByRole('status')).toHaveText('Waiting for its turn');
-  await expect.poll(moving).toBeGreaterThan(0);
-  await page.emulateMedia({ reducedMotion: 'reduce' });
-  await expect.poll(moving).toBe(0);
+  await whileHeld(server, async () => {
+    await expect.poll(moving).toBeGreaterThan(0);
+    await page.emulateMedia({ reducedMotion: 'reduce' });
+    await expect.poll(moving).toBe(0);
+    await expect(page.getByRole('status')).toHaveText('Waiting for its turn');
+  });
   await forget(server, `/insertions/${slow.id}`);
 });

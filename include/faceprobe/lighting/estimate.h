@@ -3,7 +3,7 @@
 //
 // `transport` (default) inverts the pixels' own transport matrix: microfacet rows for the highlights and cosine rows for the
 // shading, weighed against each other, clipped pixels as lower bounds. `paper` is the scheme of Yi et al. 2018 as its text has
-// it (sections 4.1 and 4.2): recolour the highlights, trace them to the sphere by inverse warping, deconvolve on the sphere with
+// it (section 4): recolour the highlights, trace them to the sphere by inverse warping, deconvolve on the sphere with
 // the Phong kernel of each face region. It is kept so that the difference can be measured.
 //
 //   lighting::SolveOptions options;
