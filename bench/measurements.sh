@@ -5,21 +5,21 @@
 #   bench/measurements.sh --data DIR [BUILD_DIR]
 #   bench/measurements.sh --data DIR --only robustness [BUILD_DIR]   one of: best_case separation highlight_makehuman highlight_photos
 #                                                                    highlight_people highlight_net geometry shading region_photos
-#                                                                    surface_photos robustness speed insert insert_cycles
-#                                                                    synth_cycles synth_speed synth_rate
+#                                                                    surface_photos robustness speed page readme insert
+#                                                                    insert_cycles synth_cycles synth_speed synth_rate
 #   bench/measurements.sh --data DIR --faces FACES ...      for highlight_people, geometry and shading: the dev faces of docs/training.md;
 #                                                           they are left as they are without them
 #   bench/measurements.sh --data DIR --training FACES ...   for highlight_people: the training faces, likewise
 #   bench/measurements.sh --data DIR --light FACES ...      for insert: the faces for it, likewise
 #
-# BUILD_DIR (build/test) is built with FACEPROBE_BUILD_BENCH=ON, and FACEPROBE_TRAIN=ON for those of highlight layers; speed and
-# synth_rate measure the command of build/release, which scripts/build.sh makes. Ends with 1 when a benchmark misses its bar; its section is
+# BUILD_DIR (build/test) is built with FACEPROBE_BUILD_BENCH=ON, and FACEPROBE_TRAIN=ON for those of highlight layers; speed, page
+# and synth_rate measure the command of build/release, which scripts/build.sh makes. Ends with 1 when a benchmark misses its bar; its section is
 # written all the same.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 sections=(best_case separation highlight_makehuman highlight_photos highlight_people highlight_net geometry shading
-          region_photos surface_photos robustness speed insert insert_cycles synth_cycles synth_speed synth_rate)
+          region_photos surface_photos robustness speed page readme insert insert_cycles synth_cycles synth_speed synth_rate)
 data=
 faces=
 training=
@@ -61,6 +61,8 @@ title_of() {
     surface_photos) echo "Albedo of photos" ;;
     robustness) echo "Many kinds of photo" ;;
     speed) echo "Time and memory" ;;
+    page) echo "The page" ;;
+    readme) echo "From a clone to a lit object in Blender" ;;
     insert) echo "Inserted objects against the same in the true light" ;;
     insert_cycles) echo "Drawn objects against Blender's Cycles" ;;
     synth_cycles) echo "Synthetic faces against Blender's Cycles" ;;
@@ -76,6 +78,8 @@ command_of() {
     highlight_makehuman) echo "bench/makehuman.sh --data DIR" ;;
     highlight_people) echo "bench/people.sh --data DIR --faces FACES --training TRAINING" ;;
     speed) echo "bench/speed.sh" ;;
+    page) echo "bench/page.sh build/release/bin/faceprobe .deps/data/samples" ;;
+    readme) echo "bench/readme.sh" ;;
     insert) echo "BUILD/bin/faceprobe eval insert --data LIGHT --samples 50" ;;
     insert_cycles) echo "BUILD/bin/bench_insert_cycles --object DIR/objects/stanford-bunny.obj --maps DIR/hdri/dev --map-count 1 --size 128 --samples 1024 --our-samples 2048" ;;
     synth_speed) echo "BUILD/bin/bench_synth_speed" ;;
@@ -91,6 +95,8 @@ run_section() {
     highlight_makehuman) "$root/bench/makehuman.sh" --data "$data" "$build" ;;
     highlight_people) "$root/bench/people.sh" --data "$data" --faces "$faces" --training "$training" "$build" ;;
     speed) "$root/bench/speed.sh" ;;
+    page) "$root/bench/page.sh" "$root/build/release/bin/faceprobe" "$root/.deps/data/samples" ;;
+    readme) "$root/bench/readme.sh" ;;
     insert) "$build/bin/faceprobe" eval insert --data "$light" --samples 50 ;;
     insert_cycles) "$build/bin/bench_insert_cycles" --object "$data/objects/stanford-bunny.obj" --maps "$data/hdri/dev" --map-count 1 --size 128 --samples 1024 \
         --our-samples 2048 ;;

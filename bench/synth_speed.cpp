@@ -1,6 +1,7 @@
 // bench_synth_speed: what light costs. A head of some 11,000 vertices, its transport, and its pictures under many maps; the rate of the
 // matrix product and its share of what the same library reaches on large square matrices. Prints Markdown; needs no data.
 
+#include "faceprobe/core/angles.h"
 #include "faceprobe/core/parallel.h"
 #include "faceprobe/core/random.h"
 #include "faceprobe/core/sphere_grid.h"
@@ -42,7 +43,7 @@ SurfaceMesh make_head() {
   mesh.vertices.resize(kRings * kAround, 3);
   for (int i = 0; i < kRings; ++i) {
     for (int k = 0; k < kAround; ++k) {
-      const float theta = 3.14159265F * (static_cast<float>(i) + 0.5F) / kRings;
+      const float theta = static_cast<float>(kPi) * (static_cast<float>(i) + 0.5F) / kRings;
       const float phi = 6.2831853F * static_cast<float>(k) / kAround;
       const Eigen::Vector3f d(std::sin(theta) * std::sin(phi), std::cos(theta), std::sin(theta) * std::cos(phi));
       float radius = 0.095F + bump(d, {0, -0.1F, 1}, 0.10F, 0.028F) + bump(d, {0, -0.75F, 0.8F}, 0.2F, 0.012F);

@@ -69,8 +69,7 @@ std::string identity_of_file(const fs::path& file) {
   if (!fs::is_regular_file(file, ignored) ||
       fs::file_size(file, ignored) > static_cast<std::uintmax_t>(kMostHashedBytes))
     return {};
-  const std::vector<std::byte> bytes = io::read_file(file, kMostHashedBytes);
-  return file.string() + ' ' + io::sha256_hex(bytes.data(), bytes.size()) + '\n';
+  return file.string() + ' ' + io::sha256_of_file(file, kMostHashedBytes) + '\n';
 }
 
 // The executable too, because a version is many builds while it is made.

@@ -1,18 +1,47 @@
 #include "commands.h"
 #include "faceprobe/core/version.h"
+#include "faceprobe/io/data_files.h"
 #include "faceprobe/pipeline/self_test.h"
 
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
 #include <memory>
+#include <utility>
 
 namespace faceprobe::cli {
 
 namespace {
 
+// What is part of this build, and may be there or not.
+std::string parts() {
+  std::string text = "estimate, separate, insert, relight, triangulate";
+#ifdef FACEPROBE_HAS_SERVE
+  text += ", serve";
+#endif
+#ifdef FACEPROBE_HAS_SYNTH
+  text += ", synth";
+#endif
+#ifdef FACEPROBE_HAS_TRAIN
+  text += ", train, eval";
+#endif
+  return text;
+}
+
+#ifdef FACEPROBE_HAS_SERVE
+// Without it serve works all the same, for programs: no failure.
+std::string page() {
+  const std::filesystem::path page = io::find_data("web/index.html");
+  return page.empty() ? "not installed: serve answers programs alone" : page.string();
+}
+#endif
+
 int run(bool json) {
-  const std::vector<pipeline::Check> checks = pipeline::self_test();
+  std::vector<pipeline::Check> checks = {{"version", true, kVersion + std::string(", with ") + parts()}};
+#ifdef FACEPROBE_HAS_SERVE
+  checks.push_back({"page", true, page()});
+#endif
+  for (pipeline::Check& check : pipeline::self_test()) checks.push_back(std::move(check));
   int code = 0;
   nlohmann::ordered_json out = {
       {"schema", "faceprobe-doctor/1"}, {"version", kVersion}, {"checks", nlohmann::ordered_json::array()}};
@@ -30,8 +59,8 @@ int run(bool json) {
 
 void add_doctor(CLI::App& program, Action& action) {
   auto json = std::make_shared<bool>(false);
-  CLI::App* command =
-      program.add_subcommand("doctor", "whether this installation works: models, a known light, the renderer");
+  CLI::App* command = program.add_subcommand(
+      "doctor", "whether this installation works: its parts, the models, a known light, the renderer");
   command->add_flag("--json", *json, "the same as JSON");
   command->footer(
       "A line for each check, ok or FAIL; the exit code is that of the first one that failed.\n\n"

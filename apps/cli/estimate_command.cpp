@@ -31,13 +31,6 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-bool is_map_file(const std::string& output) {
-  std::string extension = std::filesystem::path(output).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-  return extension == ".exr" || extension == ".hdr" || extension == ".png";
-}
-
 void print_timings(double start_s, double load_s, const pipeline::Estimate& estimate, double write_s) {
   std::fprintf(stderr, "%-24s %8s\n", "stage", "ms");
   double total = start_s + load_s + write_s;
@@ -60,7 +53,7 @@ void write_map(const std::string& path, const EnvMap& map, Orientation orientati
 void write_same_light(const std::vector<pipeline::FaceEvidence>& faces, const pipeline::Estimator& estimator,
                       const std::string& output, const pipeline::OutputOptions& how) {
   const pipeline::LightResult light = estimator.joint(faces);
-  if (is_map_file(output)) {
+  if (is_picture_output(output)) {
     write_map(output, light.environment, how.orientation, pipeline::provenance(estimator.options()));
     spdlog::info("{} faces in one light, wrote {}", faces.size(), output);
   } else {
@@ -71,7 +64,7 @@ void write_same_light(const std::vector<pipeline::FaceEvidence>& faces, const pi
 }
 
 int run(const Options& options) {
-  const bool map_only = is_map_file(options.output);
+  const bool map_only = is_picture_output(options.output);
   if (map_only && options.inputs.size() > 1 && !options.same_light) {
     throw Error(ExitCode::kUsage, "-o " + options.output + " names one map, but there are " +
                                       std::to_string(options.inputs.size()) +

@@ -40,18 +40,8 @@ std::vector<eval::CaseMethod> case_methods(const EvalOptions& options) {
   return methods;
 }
 
-// The rows that have the metric: where no one lamp dominates there is no main light, and nothing is missing.
-eval::ScoreTable rows_with(const eval::ScoreTable& table, const std::string& metric) {
-  eval::ScoreTable rows;
-  for (const eval::ScoreRow& row : table.rows()) {
-    if (row.metrics.contains(metric)) rows.add(row);
-  }
-  return rows;
-}
-
 void print_metric(const eval::ScoreTable& table, const std::string& title, const std::string& metric, int decimals) {
-  const eval::ScoreTable rows = rows_with(table, metric);
-  if (!rows.rows().empty()) fmt::print("\n### {}\n\n{}", title, rows.markdown(metric, decimals));
+  if (!table.known_values(metric).empty()) fmt::print("\n### {}\n\n{}", title, table.markdown(metric, decimals));
 }
 
 void print_by_groups(const eval::ScoreTable& table, const std::string& title, const std::string& metric, int decimals) {

@@ -22,10 +22,14 @@ namespace {
 struct Part {
   const char* name;
   Sections (*measure)(const PaperPlan&);
+  Asks asks = Asks::kOurs;
 };
-constexpr std::array kParts = {Part{"highlights", highlight_sections}, Part{"objects", object_sections},
-                               Part{"relighting", relight_sections},   Part{"directions", direction_sections},
-                               Part{"triangulation", room_sections},   Part{"ablations", ablation_sections}};
+constexpr std::array kParts = {Part{"highlights", highlight_sections, Asks::kRivals},
+                               Part{"objects", object_sections},
+                               Part{"relighting", relight_sections, Asks::kRivals},
+                               Part{"directions", direction_sections},
+                               Part{"triangulation", room_sections},
+                               Part{"ablations", ablation_sections}};
 
 // How far a part is and how long it will take: a line that writes over itself on a terminal, one every half minute elsewhere.
 class PartProgress {
@@ -79,11 +83,10 @@ int run(PaperPlan plan) {
   io::create_folder(plan.output);
   plan.progress = PartProgress("synthetic faces");
   make_paper_faces(plan);
-  const std::string key = key_of(plan);
   eval::PaperReport report{.title = "Light from faces: the evaluation", .made_with = made_with(plan)};
   for (std::size_t i = 0; i < kParts.size(); ++i) {
     plan.progress = PartProgress(fmt::format("part {} of {}, {}", i + 1, kParts.size(), kParts[i].name));
-    Sections sections = cached_part(plan, key, kParts[i].name, kParts[i].measure);
+    Sections sections = cached_part(plan, key_of(plan, kParts[i].asks), kParts[i].name, kParts[i].measure);
     std::move(sections.begin(), sections.end(), std::back_inserter(report.sections));
     spdlog::info("part {} of {}, {}: done", i + 1, kParts.size(), kParts[i].name);
   }

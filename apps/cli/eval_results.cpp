@@ -21,9 +21,7 @@ struct ResultsOptions {
 
 int run(const ResultsOptions& options) {
   constexpr std::int64_t kMostBytes = std::int64_t{1} << 28;
-  const std::vector<std::byte> bytes = io::read_file(options.report, kMostBytes);
-  const eval::PaperReport report =
-      eval::report_from_json(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+  const eval::PaperReport report = eval::report_from_json(io::read_text(options.report, kMostBytes));
   fmt::print("{}", options.headlines ? headlines(report) : eval::report_markdown(report));
   return 0;
 }

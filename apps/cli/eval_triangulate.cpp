@@ -37,8 +37,11 @@ eval::LookAtGroup estimate_of(const EvalOptions& options) {
     std::vector<lighting::FaceLights> faces;
     try {
       const pipeline::Estimate estimate = estimator.estimate(io::photo_from_srgb(input.photo));
-      if (estimate.faces.size() < 2) return faces;
-      faces = pipeline::find_lamps(estimate).faces;
+      if (estimate.faces.size() < 2) {  // no lamp can be placed, but the face was found
+        faces.resize(estimate.faces.size());
+      } else {
+        faces = pipeline::find_lamps(estimate).faces;
+      }
       for (std::size_t i = 0; i < faces.size(); ++i) faces[i].position_m = between_eyes(estimate.faces[i].face);
     } catch (const Error& error) {
       if (error.code() != ExitCode::kNoFace) throw;
@@ -59,8 +62,7 @@ int eval_triangulate(const EvalOptions& options) {
   const synth::ShardReader groups(options.data);
   const eval::ScoreTable table = measure_lamps(groups, options, eval_progress());
   fmt::print("Up to {} photos of {}.\n", options.samples, options.data);
-  fmt::print("\n### Share of the faces that were found, in photos where two were\n\n{}",
-             table.markdown("face_found", 2));
+  fmt::print("\n### Share of the faces that were found\n\n{}", table.markdown("face_found", 2));
   fmt::print("\n### Faces, metres from where they are\n\n{}", table.markdown("face_m", 2));
   fmt::print("\n### Lamps, metres from where they are; missing = not found\n\n{}", table.markdown("lamp_m", 2));
   fmt::print("\n### Share of the lamps that were found\n\n{}", table.markdown("found", 2));

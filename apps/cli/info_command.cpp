@@ -1,6 +1,7 @@
 #include "commands.h"
 #include "faceprobe/core/angles.h"
 #include "faceprobe/core/error.h"
+#include "json_line.h"
 #include "shared_options.h"
 
 #include <nlohmann/json.hpp>
@@ -72,7 +73,7 @@ int run(const Options& options) {
       const io::Photo photo = io::load_photo(input, options.limits);
       const nlohmann::ordered_json description = describe(input, photo, estimator.find_faces(photo));
       if (options.json) {
-        std::printf("%s\n", description.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
+        print_json_line(description);
       } else {
         print(description);
       }

@@ -3,6 +3,7 @@
 #include "faceprobe/io/photo.h"
 #include "faceprobe/io/picture_file.h"
 #include "faceprobe/pipeline/relight.h"
+#include "json_line.h"
 #include "shared_options.h"
 
 #include <spdlog/spdlog.h>
@@ -19,6 +20,7 @@ struct Options : SharedOptions {
   double turn_deg = 0;
   int dim = 0;
   double exposure = 0;
+  bool json = false;
 };
 
 int run(const Options& options) {
@@ -39,6 +41,12 @@ int run(const Options& options) {
     pipeline::relight(picture, face, pipeline::changed_light(face, change, estimator.options()),
                       {.threads = options.threads});
   io::write_picture(options.output, picture);
+  if (options.json) {
+    print_json_line({{"source", options.inputs[0]},
+                     {"faces", estimate.faces.size()},
+                     {"warnings", estimate.warnings},
+                     {"picture", options.output}});
+  }
   spdlog::info("{} face(s), wrote {}", estimate.faces.size(), options.output);
   return 0;
 }
@@ -68,6 +76,7 @@ void add_relight(CLI::App& program, Action& action) {
   command->add_option("--exposure", options->exposure, "stops brighter or, below 0, darker")->capture_default_str();
   add_face_options(*command, *options);
   add_solver_options(*command, *options);
+  command->add_flag("--json", options->json, "print how many faces were relit, and the warnings, on stdout");
   command->footer(
       "Takes one photo, and one of --map, --dim, --turn and --exposure at least; --dim is of the photo's own light.\n"
       "Hair, neck, clothes and room stay as they are.\n\n"

@@ -1,5 +1,6 @@
 #include "relight_methods.h"
 
+#include "faceprobe/core/angles.h"
 #include "faceprobe/core/error.h"
 #include "faceprobe/io/photo.h"
 #include "faceprobe/lighting/face_features.h"
@@ -39,7 +40,7 @@ Eigen::MatrixX3f brightest_spot(const lighting::Observations& o, const SphereGri
   Eigen::MatrixX3f light(grid.cell_count(), 3);
   light.rowwise() = fit.row(0).cwiseMax(0.0F);
   // A lamp of one cell whose irradiance over pi is the fit's.
-  const auto cell_over_pi = static_cast<float>(grid.cell_solid_angle() / 3.14159265358979);
+  const auto cell_over_pi = static_cast<float>(grid.cell_solid_angle() / kPi);
   light.row(grid.cell_of(mirrored.transpose())) += fit.row(1).cwiseMax(0.0F) / cell_over_pi;
   return light;
 }

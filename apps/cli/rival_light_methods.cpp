@@ -81,7 +81,7 @@ RivalMethods rival_light_methods(const RivalRows& rows) {
     const auto scenes = std::make_shared<Backgrounds>(rows.maps, rows.recipe);
     if (gardner) {
       found.methods.push_back(
-          of_background("gardner, trained on 80 maps", std::make_shared<net::LightRegressor>(*gardner), scenes));
+          of_background("gardner, trained on few maps", std::make_shared<net::LightRegressor>(*gardner), scenes));
     }
     if (sky) {
       found.methods.push_back(of_background("hold-geoffroy, preetham sky",

@@ -31,10 +31,21 @@ struct Options {
 std::atomic<bool> interrupted = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
 
-std::string read_text(const std::string& path) {
+std::string config_text(const std::string& path) {
   constexpr std::int64_t kMaxBytes = 1 << 20;
-  const std::vector<std::byte> bytes = io::read_file(path, kMaxBytes);
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+  return path.empty() ? std::string() : io::read_text(path, kMaxBytes);
+}
+
+// What the trainers of light do not know would be passed over in silence.
+void refuse_options_of_highlight(const Options& options) {
+  const std::pair<bool, const char*> given[] = {{options.device != "auto", "--device"},
+                                                {options.json, "--json"},
+                                                {options.run.repeat_batch, "--repeat-batch"},
+                                                {!options.run.start.empty(), "--start"}};
+  for (const auto& [is_given, name] : given) {
+    if (is_given)
+      throw Error(ExitCode::kUsage, "train " + options.net + " takes no " + name + "; highlight and face do.");
+  }
 }
 
 void log_row(const train::TrainProgress& progress) {
@@ -50,12 +61,15 @@ void log_row(const train::TrainProgress& progress) {
 }
 
 int run(Options options) {
-  const auto config_text = [&] { return options.config.empty() ? std::string() : read_text(options.config); };
-  if (options.net == "light") return train_light(options.run, config_text());
-  if (options.net == "gardner") return train_gardner(options.run, config_text());
-  if (options.net == "legendre") return train_legendre(options.run, config_text());
-  if (options.net == "sky") return train_sky(options.run, config_text(), options.scenes);
-  if (!options.config.empty()) options.run.config = train::train_config_from_json(read_text(options.config));
+  const std::string config_json = config_text(options.config);
+  if (options.net != "sky" && !options.scenes.empty())
+    throw Error(ExitCode::kUsage, "train " + options.net + " takes no --scenes; sky does.");
+  if (options.net != "highlight" && options.net != "face") refuse_options_of_highlight(options);
+  if (options.net == "light") return train_light(options.run, config_json);
+  if (options.net == "gardner") return train_gardner(options.run, config_json);
+  if (options.net == "legendre") return train_legendre(options.run, config_json);
+  if (options.net == "sky") return train_sky(options.run, config_json, options.scenes);
+  if (!config_json.empty()) options.run.config = train::train_config_from_json(config_json);
   train::TrainConfig& config = options.run.config;
   if (options.config.empty() && options.net == "face") config.architecture = "face";
   if ((config.architecture == "face") != (options.net == "face")) {
@@ -120,7 +134,9 @@ void add_train(CLI::App& program, Action& action) {
                     "train on one batch again and again and save nothing: the speed without data");
   command->add_flag("--json", options->json, "one JSON object on stdout at the end");
   command->footer(
-      "An interrupted run goes on bit for bit when the same command is given again.\n\nExample:\n"
+      "An interrupted run of highlight or face goes on bit for bit when the same command is given again; the others "
+      "begin anew.\n\n"
+      "Example:\n"
       "  faceprobe train highlight --config models/highlight.json --data faces/train --validation faces/dev -o run");
   command->callback([options, &action] { action = [options] { return run(*options); }; });
 }

@@ -1,6 +1,7 @@
 #include "cycles/maps.h"
 
 #include "faceprobe/core/angles.h"
+#include "faceprobe/core/color.h"
 #include "faceprobe/core/error.h"
 #include "faceprobe/io/picture_file.h"
 
@@ -28,8 +29,8 @@ constexpr std::array<Choice, 8> kChoices = {{{"kloofendal_overcast", "overcast",
                                              {"brown_photostudio_02", "studio", -60}}};
 
 double luminance(const Image& image, int x, int y) {
-  return 0.2126 * static_cast<double>(image(x, y, 0)) + 0.7152 * static_cast<double>(image(x, y, 1)) +
-         0.0722 * static_cast<double>(image(x, y, 2));
+  const float* rgb = image.pixel(x, y);
+  return faceprobe::luminance(static_cast<double>(rgb[0]), static_cast<double>(rgb[1]), static_cast<double>(rgb[2]));
 }
 
 EnvMap rolled(const EnvMap& map, int columns) {
@@ -58,8 +59,7 @@ void describe(NamedMap& map) {
   const Eigen::Vector2i peak = brightest(map.radiance);
   const Eigen::Vector3d direction = map.radiance.direction(peak.x(), peak.y()).cast<double>();
   const Eigen::Vector3d mean = map.radiance.integral() / (4 * kPi);
-  map.peak_over_mean = luminance(map.radiance.radiance(), peak.x(), peak.y()) /
-                       (0.2126 * mean.x() + 0.7152 * mean.y() + 0.0722 * mean.z());
+  map.peak_over_mean = luminance(map.radiance.radiance(), peak.x(), peak.y()) / faceprobe::luminance(mean.data());
   map.peak_azimuth_deg = azimuth_deg(direction);
   map.peak_elevation_deg = elevation_deg(direction);
 }

@@ -1,8 +1,11 @@
 #include "faceprobe/core/color.h"
 
+#include "faceprobe/core/quantile.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace faceprobe {
@@ -69,11 +72,7 @@ float exposure_for_quantile(const Image& linear, float quantile, float level) {
       values.push_back(linear.channels() >= 3 ? luminance(p) : p[0]);
     }
   }
-  if (values.empty()) return 1.0F;
-  const auto rank =
-      static_cast<std::ptrdiff_t>(std::clamp(quantile, 0.0F, 1.0F) * static_cast<float>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + rank, values.end());
-  const float found = values[static_cast<std::size_t>(rank)];
+  const float found = quantile_of(std::move(values), std::clamp(quantile, 0.0F, 1.0F));
   return found > 0.0F ? level / found : 1.0F;
 }
 

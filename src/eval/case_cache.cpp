@@ -16,13 +16,9 @@ constexpr std::int64_t kMostRunBytes = 64 << 10;
 
 using Json = nlohmann::ordered_json;
 
-std::string hash_of_text(const std::string& text) {
-  return io::sha256_hex(reinterpret_cast<const std::byte*>(text.data()), text.size());
-}
-
 // Names of cases are any bytes, so none of them is in the path.
 std::string key_of_run(const std::string& case_hash, const std::string& identity) {
-  return hash_of_text("faceprobe-case-run/1\n" + case_hash + '\n' + identity).substr(0, kKeyDigits);
+  return io::sha256_hex("faceprobe-case-run/1\n" + case_hash + '\n' + identity).substr(0, kKeyDigits);
 }
 
 // Empty where there is no such file, or no JSON in it.
@@ -70,7 +66,7 @@ void CaseEntry::finish(const std::string& method, const std::string& sample, dou
 std::optional<CaseFigures> CaseEntry::figures(const std::string& scoring) const {
   if (scoring.empty() || !finished_seconds()) return std::nullopt;
   const Json json = json_of(folder_ / "figures.json");
-  if (json.value("scoring", "") != hash_of_text(scoring)) return std::nullopt;
+  if (json.value("scoring", "") != io::sha256_hex(scoring)) return std::nullopt;
   return CaseFigures{json.value("has_light", false), json.value("has_highlight", false),
                      numbers_of_json(json.value("light", Json::object())),
                      numbers_of_json(json.value("highlight", Json::object()))};
@@ -78,7 +74,7 @@ std::optional<CaseFigures> CaseEntry::figures(const std::string& scoring) const 
 
 void CaseEntry::keep(const CaseFigures& figures, const std::string& scoring) const {
   if (scoring.empty()) return;
-  write_json(folder_ / "figures.json", {{"scoring", hash_of_text(scoring)},
+  write_json(folder_ / "figures.json", {{"scoring", io::sha256_hex(scoring)},
                                         {"has_light", figures.has_light},
                                         {"has_highlight", figures.has_highlight},
                                         {"light", Json(figures.light)},

@@ -48,10 +48,7 @@ ByteImage read_mask(const fs::path& path, const io::Limits& limits) {
   return mask;
 }
 
-std::string text_of(const fs::path& path) {
-  const std::vector<std::byte> bytes = io::read_file(path, kMostTextBytes);
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
+std::string text_of(const fs::path& path) { return io::read_text(path, kMostTextBytes); }
 
 std::string layer_problem(const std::string& file, const Image& layer, const ByteImage& photo) {
   if (layer.empty()) return {};
@@ -162,10 +159,9 @@ std::string case_hash(const fs::path& folder, const io::Limits& limits) {
   std::string all;
   for (const char* name : kCaseFiles) {
     if (!fs::exists(folder / name)) continue;
-    const std::vector<std::byte> bytes = io::read_file(folder / name, limits.max_file_bytes);
-    all += std::string(name) + ' ' + io::sha256_hex(bytes.data(), bytes.size()) + '\n';
+    all += std::string(name) + ' ' + io::sha256_of_file(folder / name, limits.max_file_bytes) + '\n';
   }
-  return io::sha256_hex(reinterpret_cast<const std::byte*>(all.data()), all.size());
+  return io::sha256_hex(all);
 }
 
 CaseResult read_case_result(const fs::path& folder, int photo_width, int photo_height, const io::Limits& limits) {

@@ -51,6 +51,10 @@ SyntheticPhoto made_grey(SyntheticPhoto photo) {
   photo.layers.linear = averaged(photo.layers.linear);
   photo.layers.highlight = averaged(photo.layers.highlight);
   photo.sample.photo = encode_srgb(photo.layers.linear);
+  photo.layers.linear = decode_srgb(photo.sample.photo);
+  constexpr std::uint8_t kAllChannels = 7;  // a grey pixel is at its end where all that it was made of were
+  for (std::uint8_t& flags : photo.sample.clip.values())
+    flags = (flags & kAllChannels) == kAllChannels ? kAllChannels : 0;
   return photo;
 }
 

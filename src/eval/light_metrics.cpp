@@ -2,6 +2,7 @@
 
 #include "eval/nan.h"
 #include "faceprobe/core/angles.h"
+#include "faceprobe/core/color.h"
 #include "faceprobe/eval/image_metrics.h"
 #include "faceprobe/eval/statistics.h"
 #include "faceprobe/lighting/main_lights.h"
@@ -12,8 +13,6 @@
 
 namespace faceprobe::eval {
 namespace {
-
-const Eigen::Vector3f kLuminance(0.2126F, 0.7152F, 0.0722F);
 
 Image scaled_and_clipped(Image image, float gain) {
   for (float& value : image.values()) value = std::min(1.0F, gain * value);
@@ -67,7 +66,7 @@ Image spread(const Sphere& s) {
 }
 
 Eigen::VectorXd with_mean_one(const Eigen::MatrixX3f& light) {
-  const Eigen::VectorXd luminance = (light * kLuminance).cast<double>();
+  const Eigen::VectorXd luminance = (light * kLuminanceWeights).cast<double>();
   return luminance / luminance.mean();
 }
 
@@ -119,8 +118,10 @@ double main_light_error_deg(const Eigen::MatrixX3f& truth, const Eigen::MatrixX3
   const std::vector<lighting::MainLight> right = lighting::main_lights(truth, grid);
   if (right.empty() || !(estimate.maxCoeff() > 0)) return kNaN;
   const std::vector<lighting::MainLight> found = lighting::main_lights(estimate, grid);
+  const Eigen::VectorXf level = estimate * kLuminanceWeights;
+  if (found.empty() && lighting::is_even(level.cast<double>())) return kNaN;
   Eigen::Index cell = 0;
-  (estimate * kLuminance).maxCoeff(&cell);
+  level.maxCoeff(&cell);
   const Eigen::Vector3d direction =
       found.empty() ? Eigen::Vector3d(grid.directions().row(cell).transpose().cast<double>()) : found[0].direction;
   return angle_between_deg(right[0].direction, direction);

@@ -85,7 +85,7 @@ RelightScores measure_relighting(const synth::ShardReader& faces, const std::vec
     std::map<std::string, std::string> groups = {
         {"tone", photo.tone()}, {"turn", photo.turn()}, {"light", one_lamp ? "one lamp" : "several or soft"}};
     if (options.scene) groups["scene"] = options.scene(photo.sample.map);
-    const bool drawn = sheet.takes(visited++, options.samples);
+    const bool drawn = sheet.takes(visited++, std::min(options.samples, faces.sample_count()));
     if (drawn) sheet.begin_row(photo.sample.photo, truth);
     const PhotoInput input = photo.input();
     for (const LightMethod& method : methods) {

@@ -95,7 +95,7 @@ std::vector<double> ScoreTable::known_values(const std::string& metric, const Se
 }
 
 Summary ScoreTable::summary(const std::string& metric, const Selection& selection) const {
-  return summarize(values(metric, selection), bootstrap_);
+  return summarize(known_values(metric, selection), bootstrap_);
 }
 
 Histogram ScoreTable::histogram(const std::string& metric, const Selection& selection, double low, double high,

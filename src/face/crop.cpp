@@ -59,13 +59,13 @@ void check(const Crop& crop) {
 
 }  // namespace
 
-Image crop_picture(const Image& linear, const Crop& crop) {
+Image crop_picture(const Image& linear, const Crop& crop, int threads) {
   check(crop);
   const int channels = linear.channels();
   Image out(crop.width, crop.height, channels);
   const std::vector<Taps> columns = axis_taps(crop.x_px, crop.scale, crop.width, linear.width());
   const std::vector<Taps> rows = axis_taps(crop.y_px, crop.scale, crop.height, linear.height());
-  parallel_for(crop.height, 0, [&](int first, int last) {
+  parallel_for(crop.height, threads, [&](int first, int last) {
     for (int y = first; y < last; ++y) {
       const Taps& down = rows[static_cast<std::size_t>(y)];
       for (int x = 0; x < crop.width; ++x) {

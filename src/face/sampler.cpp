@@ -1,10 +1,12 @@
 #include "face/sampler.h"
 
 #include "faceprobe/core/color.h"
+#include "faceprobe/core/quantile.h"
 
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 namespace faceprobe::face {
 namespace {
@@ -62,10 +64,9 @@ void Sampler::expose(const SquareRegion& region) {
   }
   gain_ = 1;
   if (levels.empty()) return;
-  const auto at = levels.begin() + static_cast<std::ptrdiff_t>(kQuantile * static_cast<double>(levels.size() - 1));
-  std::nth_element(levels.begin(), at, levels.end());
-  if (*at < kDark) gain_ = kDark / *at;
-  if (*at > kBright) gain_ = kBright / *at;
+  const float level = quantile_of(std::move(levels), kQuantile);
+  if (level < kDark) gain_ = kDark / level;
+  if (level > kBright) gain_ = kBright / level;
 }
 
 cv::Mat Sampler::warp(const SquareRegion& region, int size) const {

@@ -1,3 +1,4 @@
+#include "faceprobe/core/quantile.h"
 #include "faceprobe/insert/photo_look.h"
 #include "insert/edge_tiles.h"
 #include "insert/edge_width.h"
@@ -8,6 +9,7 @@
 #include <cstddef>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace faceprobe::insert {
@@ -37,15 +39,7 @@ float threshold(const Image& size) {
     inner.insert(inner.end(), size.pixel(kTileMargin, y), size.pixel(size.width() - kTileMargin, y));
   }
   const float strongest = *std::max_element(inner.begin(), inner.end());
-  const auto middle = inner.begin() + std::ssize(inner) / 2;
-  std::nth_element(inner.begin(), middle, inner.end());
-  return std::max({kLeastGradient, kOverTile * *middle, kOfStrongest * strongest});
-}
-
-double quantile(std::vector<double>& values, double share) {
-  const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + rank, values.end());
-  return values[static_cast<std::size_t>(rank)];
+  return std::max({kLeastGradient, kOverTile * upper_median_of(std::move(inner)), kOfStrongest * strongest});
 }
 
 // The median of the tile's edges.
@@ -64,7 +58,7 @@ std::optional<double> variance_of(const EdgeTile& tile) {
     }
   }
   if (variances.size() < kEnoughPixels) return std::nullopt;
-  return quantile(variances, 0.5);
+  return quantile_of(std::move(variances), 0.5);
 }
 
 // Luminance at half the size; clipped, as 1, where any of the four pixels is.
@@ -89,7 +83,7 @@ std::optional<double> variance_of_picture(const Image& linear) {
     if (const auto variance = variance_of(tile)) variances.push_back(*variance);
   }
   std::optional<double> found;
-  if (!variances.empty()) found = quantile(variances, kSharpest);
+  if (!variances.empty()) found = quantile_of(std::move(variances), kSharpest);
   if (std::min(linear.width(), linear.height()) < 2 * kTileSide || (found && *found < kWide)) return found;
   const std::optional<double> half = variance_of_picture(half_size(linear));
   constexpr double kTwoPixels = 0.25;  // variance of the mean of two

@@ -1,6 +1,7 @@
 #include "io/decoder.h"
 
 #include "faceprobe/core/error.h"
+#include "faceprobe/io/photo.h"
 
 #include <sys/mman.h>
 #include <unistd.h>
@@ -44,6 +45,15 @@ Decoder::Decoder(std::span<const std::byte> bytes, const Header& header, const s
     if (memory_file_ >= 0) ::close(memory_file_);
     throw;
   }
+}
+
+std::vector<std::string> photo_formats() {
+  std::vector<std::string> formats;
+  for (const char* format : {"jpeg", "png", "tiff", "webp", "heif", "exr", "hdr"}) {
+    if (OIIO::ImageInput::create(reader_name(format))) formats.emplace_back(format);
+  }
+  OIIO::geterror();  // of those that are not there; left unread, it would be printed when the process ends
+  return formats;
 }
 
 Decoder::~Decoder() {

@@ -74,4 +74,9 @@ std::vector<std::byte> read_file(const std::filesystem::path& path, std::int64_t
   return read_regular_file(path, max_bytes, "");
 }
 
+std::string read_text(const std::filesystem::path& path, std::int64_t max_bytes) {
+  const std::vector<std::byte> bytes = read_file(path, max_bytes);
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
 }  // namespace faceprobe::io

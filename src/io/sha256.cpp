@@ -83,4 +83,13 @@ std::string sha256_hex(const std::byte* data, std::size_t size) {
   return text;
 }
 
+std::string sha256_hex(const std::string& text) {
+  return sha256_hex(reinterpret_cast<const std::byte*>(text.data()), text.size());
+}
+
+std::string sha256_of_file(const std::filesystem::path& path, std::int64_t max_bytes) {
+  const std::vector<std::byte> bytes = read_file(path, max_bytes);
+  return sha256_hex(bytes.data(), bytes.size());
+}
+
 }  // namespace faceprobe::io

@@ -31,12 +31,16 @@ constexpr std::int64_t kMaxTensors = 4096;
 }
 
 std::shared_ptr<const std::byte> map_file(const std::filesystem::path& path, std::size_t& size) {
-  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);  // a pipe would wait for who writes
   struct stat status {};
   if (fd < 0 || ::fstat(fd, &status) != 0) {
     const std::string reason = std::generic_category().message(errno);
     if (fd >= 0) ::close(fd);
     throw Error(ExitCode::kInput, path.string() + " cannot be read: " + reason + ".");
+  }
+  if (!S_ISREG(status.st_mode)) {
+    ::close(fd);
+    refuse(path.string(), "is no regular file");
   }
   size = static_cast<std::size_t>(status.st_size);
   void* map = size > 0 ? ::mmap(nullptr, size, PROT_READ, MAP_SHARED, fd, 0) : MAP_FAILED;

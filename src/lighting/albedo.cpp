@@ -1,5 +1,7 @@
 #include "faceprobe/lighting/albedo.h"
 
+#include "faceprobe/core/color.h"
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -25,8 +27,7 @@ struct Mean {
 };
 
 Eigen::Vector3f with_luminance(const Eigen::Array3d& colour, float luminance) {
-  const double found = 0.2126 * colour[0] + 0.7152 * colour[1] + 0.0722 * colour[2];
-  return (colour * (luminance / found)).matrix().cast<float>();
+  return (colour * (luminance / faceprobe::luminance(colour.data()))).matrix().cast<float>();
 }
 
 // One pass of a running mean along rows or columns, borders clamped; three make a near-Gaussian.

@@ -1,5 +1,6 @@
 #include "faceprobe/lighting/face_features.h"
 
+#include "faceprobe/core/color.h"
 #include "faceprobe/core/sphere_grid.h"
 
 #include <algorithm>
@@ -61,7 +62,7 @@ float shading_level(const Observations& observations) {
   for (Eigen::Index i = 0; i < observations.count(); ++i) {
     if (observations.clipped.row(i).any()) continue;
     const auto w = static_cast<double>(observations.weight[i]);
-    sum += w * static_cast<double>(observations.shading.row(i).dot(Eigen::RowVector3f(0.2126F, 0.7152F, 0.0722F)));
+    sum += w * static_cast<double>(observations.shading.row(i).dot(kLuminanceWeights.transpose()));
     weight += w;
   }
   return weight > 0 ? static_cast<float>(sum / weight) : 0.0F;

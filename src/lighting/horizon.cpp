@@ -2,6 +2,7 @@
 
 #include "faceprobe/core/angles.h"
 #include "faceprobe/core/parallel.h"
+#include "faceprobe/core/smooth_step.h"
 #include "lighting/horizon_profile.h"
 
 #include <algorithm>
@@ -75,8 +76,7 @@ HorizonProfile horizon_profile(const Eigen::Ref<const Eigen::RowVectorXf>& tange
 float profile_visibility(const HorizonProfile& profile, const HorizonPlace& place) {
   const float horizon = (1.0F - place.fraction) * profile[static_cast<std::size_t>(place.before)] +
                         place.fraction * profile[static_cast<std::size_t>(place.after)];
-  const float t = std::clamp((place.elevation - horizon) / (2.0F * kSoftEdgeRad) + 0.5F, 0.0F, 1.0F);
-  return t * t * (3.0F - 2.0F * t);
+  return smooth_step(0.0F, 1.0F, (place.elevation - horizon) / (2.0F * kSoftEdgeRad) + 0.5F);
 }
 
 float horizon_visibility(const Eigen::Ref<const Eigen::RowVectorXf>& tangents, const Eigen::Vector3f& direction) {

@@ -1,6 +1,8 @@
 #include "faceprobe/lighting/main_lights.h"
 
 #include "faceprobe/core/angles.h"
+#include "faceprobe/core/color.h"
+#include "faceprobe/core/quantile.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,16 +13,7 @@ namespace faceprobe::lighting {
 
 namespace {
 
-Eigen::VectorXd luminance_of(const Eigen::MatrixX3f& radiance) {
-  return (radiance * Eigen::Vector3f(0.2126F, 0.7152F, 0.0722F)).cast<double>();
-}
-
-double median_of(const Eigen::VectorXd& values) {
-  std::vector<double> sorted(values.begin(), values.end());
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  return *middle;
-}
+Eigen::VectorXd luminance_of(const Eigen::MatrixX3f& radiance) { return (radiance * kLuminanceWeights).cast<double>(); }
 
 // Gaussian on the sphere, cut at three sigma.
 Eigen::VectorXd blurred(const Eigen::VectorXd& values, const SphereGrid& grid, double sigma_rad) {
@@ -119,7 +112,7 @@ FoundLight gather(int peak, const std::vector<int>& peaks, const Eigen::MatrixX3
   }
   if (!(light.irradiance > 0)) return found;
   light.direction = centroid.normalized();
-  light.colour = colour / (0.2126 * colour[0] + 0.7152 * colour[1] + 0.0722 * colour[2]);
+  light.colour = colour / luminance(colour.data());
   light.solid_angle_sr = light.irradiance / (light.peak_radiance - ambient);
   return found;
 }
@@ -135,7 +128,7 @@ FoundLights find_lights(const Eigen::MatrixX3f& radiance, const SphereGrid& grid
   const double energy = level.sum() * grid.cell_solid_angle();
   if (!(energy > 0)) return {};
   FoundLights found;
-  found.ambient = median_of(level);
+  found.ambient = upper_median_of(std::vector<double>(level.begin(), level.end()));
   Eigen::VectorXd smooth = blurred(level, grid, radians(options.blur_deg));
   // What hardly anything observed is neither a light nor outshines one.
   for (Eigen::Index j = 0; j < confidence.size(); ++j) {
@@ -163,6 +156,10 @@ std::vector<MainLight> main_lights(const Eigen::MatrixX3f& radiance, const Spher
   std::vector<MainLight> lights;
   for (FoundLight& found : find_lights(radiance, grid, options, confidence).lights) lights.push_back(found.light);
   return lights;
+}
+
+bool is_even(const Eigen::VectorXd& luminance) {
+  return luminance.size() == 0 || luminance.maxCoeff() - luminance.minCoeff() <= 1e-4 * luminance.maxCoeff();
 }
 
 Eigen::MatrixX3f without_main_lights(const Eigen::MatrixX3f& radiance, const SphereGrid& grid, int count,

@@ -28,7 +28,14 @@ std::string Observations::validate() const {
     return "Observations hold values that are not finite.";
   }
   if (highlight.minCoeff() < 0 || shading.minCoeff() < 0) return "Observations hold negative light.";
-  if (weight.minCoeff() < 0 || !(weight.maxCoeff() > 0)) return "Observation weights must be positive.";
+  if (!horizon.allFinite() || !roughness.allFinite()) return "Observations hold values that are not finite.";
+  constexpr float kUnitTolerance = 0.01F;  // lengths of normals that were averaged or stored in halves
+  const auto unit = [](const Eigen::MatrixX3f& rows) {
+    return ((rows.rowwise().norm().array() - 1).abs() < kUnitTolerance).all();
+  };
+  if (!unit(normal) || !unit(view)) return "Normals and views must be of unit length.";
+  if (weight.minCoeff() < 0 || !(weight.maxCoeff() > 0))
+    return "Observation weights must not be negative, and some must be above 0.";
   if (roughness.minCoeff() < 0.02F || roughness.maxCoeff() > 1.0F) return "Roughness must lie in [.02, 1].";
   if (!specular_albedo.allFinite() || !(specular_albedo.minCoeff() > 0)) return "Specular albedos must be positive.";
   return {};

@@ -1,12 +1,14 @@
 #include "faceprobe/lighting/richardson_lucy.h"
 
 #include "faceprobe/core/parallel.h"
+#include "faceprobe/core/quantile.h"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace faceprobe::lighting {
@@ -49,10 +51,7 @@ Eigen::MatrixXf back_projected(const RowMatrix& transport, Eigen::Index channels
 float median_above(const Eigen::VectorXf& values, float least) {
   std::vector<float> kept;
   std::copy_if(values.begin(), values.end(), std::back_inserter(kept), [least](float v) { return v > least; });
-  if (kept.empty()) return 0.0F;
-  const auto middle = kept.begin() + static_cast<std::ptrdiff_t>(kept.size() / 2);
-  std::nth_element(kept.begin(), middle, kept.end());
-  return *middle;
+  return upper_median_of(std::move(kept));
 }
 
 }  // namespace

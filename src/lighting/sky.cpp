@@ -141,7 +141,7 @@ double best_turbidity(const SkyMatch& match) {
   return (low + high) / 2;
 }
 
-double sum_of_luminance(const Eigen::Vector3d& rgb) { return rgb.dot(Eigen::Vector3d(0.2126, 0.7152, 0.0722)); }
+double sum_of_luminance(const Eigen::Vector3d& rgb) { return rgb.dot(luminance_weights<double>()); }
 
 // The light around the sun that the sky does not account for, over what a clear sky's sun sends.
 double share_of_sun(const Eigen::MatrixX3f& radiance, const SphereGrid& grid, SkyParameters sky) {

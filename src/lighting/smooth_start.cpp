@@ -1,10 +1,12 @@
 #include "lighting/smooth_start.h"
 
 #include "faceprobe/core/angles.h"
+#include "faceprobe/core/quantile.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace faceprobe::lighting {
@@ -14,13 +16,6 @@ namespace {
 constexpr int kRounds = 12;
 constexpr float kLobeExponent =
     8.0F;  // about 47 degrees across at half height: wider than any lamp, narrower than a cosine
-
-float median_of(std::vector<float> values) {
-  if (values.empty()) return 0.0F;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 }  // namespace
 
@@ -58,7 +53,7 @@ SmoothFit fit_smooth_light(const Observations& observations, const Eigen::Vector
       if (!clipped[i]) residuals.push_back(residual[i]);
     }
     // 1.48 median |r| estimates the standard deviation; 2.4 of it is the usual Cauchy scale (95 % efficient on clean data).
-    const float scale = std::max(1e-6F, 2.4F * 1.48F * median_of(std::move(residuals)));
+    const float scale = std::max(1e-6F, 2.4F * 1.48F * upper_median_of(std::move(residuals)));
     for (Eigen::Index i = 0; i < n; ++i) {
       const float r = residual[i] / scale;
       fit.trust[i] = 1.0F / (1.0F + r * r);

@@ -1,6 +1,7 @@
 #include "faceprobe/core/angles.h"
 #include "faceprobe/core/microfacet.h"
 #include "faceprobe/core/parallel.h"
+#include "faceprobe/core/quantile.h"
 #include "faceprobe/lighting/estimate.h"
 #include "faceprobe/lighting/recolour.h"
 #include "faceprobe/lighting/richardson_lucy.h"
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace faceprobe::lighting {
@@ -45,20 +47,15 @@ float gain_of_shading(const Observations& observations, const Eigen::MatrixX3f& 
   return predicted > 0 && found > 0 ? found / predicted : 1.0F;
 }
 
-// Median of the cells that a highlight saw.
+// Median of the cells that a highlight saw; black where none did.
 Eigen::Vector3f ambient_of(const Light& light) {
-  std::vector<Eigen::Index> seen;
-  for (Eigen::Index j = 0; j < light.confidence.size(); ++j) {
-    if (light.confidence[j] > 0.5F) seen.push_back(j);
-  }
-  Eigen::Vector3f ambient = Eigen::Vector3f::Zero();
-  if (seen.empty()) return ambient;
+  Eigen::Vector3f ambient;
   for (int channel = 0; channel < 3; ++channel) {
-    const auto middle = seen.begin() + static_cast<std::ptrdiff_t>(seen.size() / 2);
-    std::nth_element(seen.begin(), middle, seen.end(), [&](Eigen::Index a, Eigen::Index b) {
-      return light.radiance(a, channel) < light.radiance(b, channel);
-    });
-    ambient[channel] = light.radiance(*middle, channel);
+    std::vector<float> seen;
+    for (Eigen::Index j = 0; j < light.confidence.size(); ++j) {
+      if (light.confidence[j] > 0.5F) seen.push_back(light.radiance(j, channel));
+    }
+    ambient[channel] = upper_median_of(std::move(seen));
   }
   return ambient;
 }

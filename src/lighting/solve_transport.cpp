@@ -1,3 +1,6 @@
+#include "faceprobe/core/color.h"
+#include "faceprobe/core/quantile.h"
+#include "faceprobe/core/smooth_step.h"
 #include "faceprobe/lighting/estimate.h"
 #include "faceprobe/lighting/richardson_lucy.h"
 #include "faceprobe/lighting/transport.h"
@@ -7,6 +10,7 @@
 #include <cmath>
 #include <iterator>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace faceprobe::lighting {
@@ -15,8 +19,6 @@ namespace {
 
 using Flags = Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>;
 
-const Eigen::Vector3f kLuminance(0.2126F, 0.7152F, 0.0722F);
-
 // The two kinds of rows, each weighed so that its data carry the influence the options give it.
 struct Rows {
   RowMatrix transport;  // highlight rows, then shading rows
@@ -24,13 +26,6 @@ struct Rows {
   Eigen::MatrixX3f data;
   Flags bound;  // #rows x 3
 };
-
-float quantile(std::vector<float> values, double share) {
-  if (values.empty()) return 0.0F;
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
 
 float weighted_sum(const Eigen::VectorXf& weight, const Eigen::VectorXf& values) {
   return static_cast<float>(weight.cast<double>().dot(values.cast<double>()));
@@ -50,7 +45,7 @@ void fit_highlights(const Observations& o, const RowMatrix& highlight_rows, cons
                     const SolveOptions& options, const Eigen::MatrixXf& start, float level, Light& light,
                     Eigen::MatrixX3f& highlight) {
   constexpr int kSmoothIterations = 10;
-  const Eigen::VectorXf shading = o.shading * kLuminance;
+  const Eigen::VectorXf shading = o.shading * kLuminanceWeights;
   const Flags bound = o.clipped.rowwise().any();
   RichardsonLucyOptions plain = rl_options(options, kSmoothIterations);
   plain.prior_weight = 0;  // which keeps the flux, and that is all that counts here
@@ -61,7 +56,7 @@ void fit_highlights(const Observations& o, const RowMatrix& highlight_rows, cons
   std::vector<float> found_ratio;
   std::vector<float> expected_ratio;
   const float least_shading = 0.05F * level;
-  const Eigen::VectorXf found = highlight * kLuminance;
+  const Eigen::VectorXf found = highlight * kLuminanceWeights;
   for (Eigen::Index i = 0; i < o.count(); ++i) {
     if (bound(i, 0)) weight[i] = 0;
     if (weight[i] <= 0 || shading[i] < least_shading) continue;
@@ -77,7 +72,8 @@ void fit_highlights(const Observations& o, const RowMatrix& highlight_rows, cons
   constexpr double kLeast = 0.1;
   float leak = 0;
   for (int round = 0; round < 3 && options.max_leak > 0; ++round) {
-    leak = std::clamp(quantile(found_ratio, kLeast) - gain * quantile(expected_ratio, kLeast), 0.0F, options.max_leak);
+    leak = std::clamp(quantile_of(found_ratio, kLeast) - gain * quantile_of(expected_ratio, kLeast), 0.0F,
+                      options.max_leak);
     const float left = weighted_sum(weight, (found - leak * shading).cwiseMax(0.0F));
     if (options.fit_highlight_gain) gain = limited(left / expected_sum);
   }
@@ -87,8 +83,8 @@ void fit_highlights(const Observations& o, const RowMatrix& highlight_rows, cons
 }
 
 Rows stack(const Observations& o, const Transport& transport, const SolveOptions& options) {
-  const float highlight_flux = weighted_sum(o.weight, o.highlight * kLuminance);
-  const float shading_flux = weighted_sum(o.weight, o.shading * kLuminance);
+  const float highlight_flux = weighted_sum(o.weight, o.highlight * kLuminanceWeights);
+  const float shading_flux = weighted_sum(o.weight, o.shading * kLuminanceWeights);
   const bool use_highlights = options.highlight_weight > 0 && highlight_flux > 0;
   const bool use_shading = shading_flux > 0 && (options.shading_weight > 0 || !use_highlights);
   const Eigen::Index n = o.count();
@@ -119,7 +115,7 @@ Rows stack(const Observations& o, const Transport& transport, const SolveOptions
 Eigen::MatrixX3f coloured(const Rows& rows, const Eigen::VectorXf& level, const Eigen::MatrixX3f& colours,
                           const SolveOptions& options) {
   const Eigen::RowVector3f flux = rows.weight.transpose() * rows.data;
-  const float total = flux.dot(kLuminance.transpose());
+  const float total = flux.dot(kLuminanceWeights.transpose());
   const Eigen::RowVector3f mean_colour = (flux / total).cwiseMax(1e-4F);
   Eigen::MatrixXf start = (level.cwiseMax(1e-12F)) * mean_colour;
   if (colours.rows() > 0) start = level.cwiseMax(1e-12F).asDiagonal() * colours;
@@ -127,7 +123,7 @@ Eigen::MatrixX3f coloured(const Rows& rows, const Eigen::VectorXf& level, const 
                                                       rl_options(options, options.colour_iterations));
   Eigen::MatrixX3f radiance = solved.estimate;
   for (Eigen::Index j = 0; j < radiance.rows(); ++j) {
-    const float found = radiance.row(j).dot(kLuminance.transpose());
+    const float found = radiance.row(j).dot(kLuminanceWeights.transpose());
     if (found > 0) radiance.row(j) *= level[j] / found;
   }
   return radiance;
@@ -141,13 +137,13 @@ bool rate(const Eigen::VectorXf& sensitivity, Light& light) {
   std::vector<float> reached;
   std::copy_if(sensitivity.begin(), sensitivity.end(), std::back_inserter(reached),
                [least](float s) { return s > least; });
-  light.confidence = (sensitivity / (0.5F * quantile(reached, 0.5))).cwiseMin(1.0F);
+  light.confidence = (sensitivity / (0.5F * quantile_of(std::move(reached), 0.5))).cwiseMin(1.0F);
   for (int channel = 0; channel < 3; ++channel) {
     std::vector<float> observed;
     for (Eigen::Index j = 0; j < sensitivity.size(); ++j) {
       if (light.confidence[j] > 0.5F) observed.push_back(light.radiance(j, channel));
     }
-    light.ambient[channel] = quantile(observed, 0.5);
+    light.ambient[channel] = quantile_of(std::move(observed), 0.5);
   }
   return true;
 }
@@ -155,8 +151,7 @@ bool rate(const Eigen::VectorXf& sensitivity, Light& light) {
 // Cells that hardly anything observes take the ambient level.
 void fill_unobserved(Light& light) {
   for (Eigen::Index j = 0; j < light.confidence.size(); ++j) {
-    const float t = std::clamp((light.confidence[j] - 0.01F) / 0.09F, 0.0F, 1.0F);
-    const float trust = t * t * (3.0F - 2.0F * t);
+    const float trust = smooth_step(0.01F, 0.1F, light.confidence[j]);
     light.radiance.row(j) = trust * light.radiance.row(j) + (1.0F - trust) * light.ambient.transpose();
   }
 }
@@ -165,16 +160,16 @@ void fill_unobserved(Light& light) {
 Eigen::VectorXf expected_start(const Eigen::MatrixX3f& expected, const Transport& transport, const Observations& o,
                                float level) {
   constexpr float kDarkest = 1e-3F;  // of the level
-  const Eigen::VectorXf luminance = expected * kLuminance;
+  const Eigen::VectorXf luminance = expected * kLuminanceWeights;
   const float predicted = weighted_sum(o.weight, transport.diffuse * luminance);
-  const float found = weighted_sum(o.weight, o.shading * kLuminance);
+  const float found = weighted_sum(o.weight, o.shading * kLuminanceWeights);
   return (luminance * (predicted > 0 ? found / predicted : 1.0F)).cwiseMax(kDarkest * level);
 }
 
 Eigen::MatrixX3f colours_of(const Eigen::MatrixX3f& light) {
   constexpr float kDarkest = 1e-6F;
   Eigen::MatrixX3f colours = light.cwiseMax(kDarkest);
-  const Eigen::VectorXf luminance = colours * kLuminance;
+  const Eigen::VectorXf luminance = colours * kLuminanceWeights;
   for (Eigen::Index j = 0; j < colours.rows(); ++j) colours.row(j) /= luminance[j];
   return colours;
 }
@@ -198,17 +193,18 @@ Light solve_transport(const Observations& observations, const SolveOptions& opti
   Observations patches = observations;
   const float weight = patches.weight.sum();
   // Uniform radiance L gives a shading of at most L, so the mean shading is the right order of magnitude to start from.
-  float level = weighted_sum(patches.weight, patches.shading * kLuminance) / weight;
+  float level = weighted_sum(patches.weight, patches.shading * kLuminanceWeights) / weight;
   Eigen::MatrixXf start = Eigen::MatrixXf::Constant(grid.cell_count(), 1, level);
   if (level > 0) {
-    const SmoothFit fit = fit_smooth_light(patches, patches.shading * kLuminance, patches.clipped.rowwise().any());
+    const SmoothFit fit =
+        fit_smooth_light(patches, patches.shading * kLuminanceWeights, patches.clipped.rowwise().any());
     // Never silenced: two lamps from opposite sides are misfit too, and they are data.
     patches.weight = patches.weight.cwiseProduct(fit.trust.cwiseMax(0.2F));
     start = has_expected ? expected_start(expected, transport, patches, level) : smooth_radiance(fit, grid, level);
     fit_highlights(patches, transport.highlight, transport.diffuse, options, start, level, light, patches.highlight);
   } else {
     const float per_unit = weighted_sum(patches.weight, transport.highlight.rowwise().sum());
-    level = per_unit > 0 ? weighted_sum(patches.weight, patches.highlight * kLuminance) / per_unit : 0;
+    level = per_unit > 0 ? weighted_sum(patches.weight, patches.highlight * kLuminanceWeights) / per_unit : 0;
     start.setConstant(level);
     has_expected = false;  // without shading there is no scale to bring it to
   }
@@ -217,8 +213,8 @@ Light solve_transport(const Observations& observations, const SolveOptions& opti
   const Rows rows = stack(patches, transport, options);
   if (rows.transport.rows() == 0) return light;
   const Flags bound = rows.bound.rowwise().any();
-  const RichardsonLucyResult solved = richardson_lucy(rows.transport, rows.weight, rows.data * kLuminance, bound, start,
-                                                      rl_options(options, options.iterations));
+  const RichardsonLucyResult solved = richardson_lucy(rows.transport, rows.weight, rows.data * kLuminanceWeights, bound,
+                                                      start, rl_options(options, options.iterations));
   light.radiance =
       coloured(rows, solved.estimate.col(0), has_expected ? colours_of(expected) : Eigen::MatrixX3f(), options);
   if (rate(solved.sensitivity, light) && !has_expected) fill_unobserved(light);

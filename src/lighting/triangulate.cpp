@@ -1,6 +1,7 @@
 #include "faceprobe/lighting/triangulate.h"
 
 #include "faceprobe/core/angles.h"
+#include "faceprobe/core/color.h"
 #include "lighting/lamp_fit.h"
 
 #include <algorithm>
@@ -114,7 +115,7 @@ Lamp lamp_of(const std::vector<FaceLights>& faces, const Candidate& candidate) {
   }
   const auto count = static_cast<double>(candidate.seen.size());
   lamp.direction = fit.seen_from(middle / count);
-  lamp.colour = colour / (0.2126 * colour[0] + 0.7152 * colour[1] + 0.0722 * colour[2]);
+  lamp.colour = colour / luminance(colour.data());
   lamp.intensity = std::exp(log_intensity / count);
   lamp.miss_deg = std::sqrt(miss / count);
   return lamp;

@@ -2,10 +2,12 @@
 
 #include "faceprobe/core/angles.h"
 #include "faceprobe/core/color.h"
+#include "faceprobe/core/quantile.h"
 #include "faceprobe/face/region.h"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace faceprobe::pipeline {
@@ -44,8 +46,14 @@ void draw_line(ByteImage& canvas, Eigen::Vector2d from, Eigen::Vector2d to, cons
   if (from.x() > to.x()) std::swap(from, to);
   const double length = to.x() - from.x();
   const double slope = length > 0 ? (to.y() - from.y()) / length : 0.0;
-  for (int i = static_cast<int>(std::floor(from.x())); i <= static_cast<int>(std::floor(to.x())); ++i) {
+  // Only what is on the canvas: landmarks may be given anywhere.
+  const double along = steep ? canvas.height() : canvas.width();
+  const double beside = steep ? canvas.width() : canvas.height();
+  const int first = static_cast<int>(std::floor(std::clamp(from.x(), 0.0, along)));
+  const int last = static_cast<int>(std::floor(std::clamp(to.x(), -1.0, along - 1)));
+  for (int i = first; i <= last; ++i) {
     const double across = from.y() + slope * (std::clamp<double>(i + 0.5, from.x(), to.x()) - from.x()) - 0.5;
+    if (!(across > -2 && across < beside + 1)) continue;
     const int low = static_cast<int>(std::floor(across));
     const auto fraction = static_cast<float>(across - low);
     blend(canvas, steep ? low : i, steep ? i : low, colour, opacity * (1.0F - fraction));
@@ -100,9 +108,7 @@ float display_gain(const Image& layer) {
     }
   }
   if (values.empty()) return 1.0F;
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return 0.8F / *at;
+  return 0.8F / quantile_of(std::move(values), 0.99);
 }
 
 ByteImage normals_picture(const face::FaceGeometry& geometry) {

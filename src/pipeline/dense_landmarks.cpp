@@ -1,5 +1,6 @@
 #include "faceprobe/pipeline/dense_landmarks.h"
 
+#include "faceprobe/core/angles.h"
 #include "faceprobe/core/color.h"
 #include "faceprobe/core/error.h"
 #include "pipeline/unwrap_raster.h"
@@ -30,11 +31,10 @@ Shot shot_of(const DenseLandmarkOptions& options, int size_px, double yaw_deg, d
   shot.camera = {.focal_px = size_px * options.distance_m / static_cast<double>(kHeadHeightM),
                  .centre_x_px = 0.5 * size_px,
                  .centre_y_px = 0.5 * size_px};
-  constexpr double kDegree = 3.14159265358979 / 180.0;
   const Eigen::Vector3d middle(0, -0.02, 0);  // of the face, below the eyes
   shot.camera_from_head = Eigen::Translation3d(0, 0, -options.distance_m) *
-                          Eigen::AngleAxisd(-pitch_deg * kDegree, Eigen::Vector3d::UnitX()) *
-                          Eigen::AngleAxisd(yaw_deg * kDegree, Eigen::Vector3d::UnitY()) * Eigen::Translation3d(-middle);
+                          Eigen::AngleAxisd(radians(-pitch_deg), Eigen::Vector3d::UnitX()) *
+                          Eigen::AngleAxisd(radians(yaw_deg), Eigen::Vector3d::UnitY()) * Eigen::Translation3d(-middle);
   return shot;
 }
 

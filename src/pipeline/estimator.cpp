@@ -42,7 +42,7 @@ FaceEstimate Estimator::Impl::analyse(const io::Photo& photo, const face::Camera
   geometry.long_side_px = options.layer_px;
   const face::Crop crop = face::face_crop(out.face, photo.linear.width(), photo.linear.height(), geometry);
   out.geometry = face::rasterize(out.face, camera, mesh, crop);
-  out.picture = face::crop_picture(photo.linear, crop);
+  out.picture = face::crop_picture(photo.linear, crop, options.threads);
   out.clipped = face::crop_flags(photo.clipped, crop);
   watch.lap("geometry");
 

@@ -1,5 +1,6 @@
 #include "pipeline/expected_light.h"
 
+#include "faceprobe/core/color.h"
 #include "faceprobe/core/error.h"
 #include "faceprobe/core/sphere_grid.h"
 #include "faceprobe/io/data_files.h"
@@ -9,14 +10,12 @@ namespace faceprobe::pipeline {
 
 namespace {
 
-const Eigen::Vector3f kLuminance(0.2126F, 0.7152F, 0.0722F);
-
 // The same brightness in broad colours: of these the prior knows a blue sky over a brown ground; cell by cell they are noise, and where no skin
 // looks the noise would stay.
 Eigen::MatrixX3f broadly_coloured(const Eigen::MatrixX3f& light, const SphereGrid& grid) {
   const SphereGrid broad(2);  // cells of 29 degrees
   Eigen::MatrixX3f out = grid_from_grid(grid_from_grid(light, grid, broad), broad, grid);
-  const Eigen::VectorXf scale = (light * kLuminance).array() / (out * kLuminance).array().max(1e-9F);
+  const Eigen::VectorXf scale = (light * kLuminanceWeights).array() / (out * kLuminanceWeights).array().max(1e-9F);
   for (Eigen::Index j = 0; j < out.rows(); ++j) out.row(j) *= scale[j];
   return out;
 }

@@ -62,10 +62,14 @@ void light_scene(const Estimate& estimate, const Eigen::Vector3f& foot, const In
   const Eigen::MatrixX3f rest =
       lighting::without_main_lights(face.light.radiance, grid, count, options.main_lights, face.light.confidence);
   scene.environment = env_map_from_grid(rest, grid, face.environment.width(), face.environment.height());
-  for (auto lamp = of_light.begin(); lamp != end; ++lamp) {
-    scene.lamps.push_back({.position = (*lamp)->position_m.cast<float>(),
+  for (int k = 0; k < count; ++k) {
+    // As strong as this face sees it, not as all do on average: what is taken off the map comes back whole.
+    const lighting::MainLight& light = face.lights[static_cast<std::size_t>(k)];
+    const Eigen::Vector3d& place = of_light[static_cast<std::size_t>(k)]->position_m;
+    const double squared = (place - room.faces[index].position_m).squaredNorm();
+    scene.lamps.push_back({.position = place.cast<float>(),
                            .radius_m = kLampRadiusM,
-                           .intensity = ((*lamp)->intensity * (*lamp)->colour).cast<float>()});
+                           .intensity = (light.irradiance * squared * light.colour).cast<float>()});
   }
 }
 

@@ -1,5 +1,6 @@
 #include "pipeline/light_result.h"
 
+#include "faceprobe/core/color.h"
 #include "faceprobe/core/sh.h"
 
 #include <cmath>
@@ -8,9 +9,7 @@ namespace faceprobe::pipeline {
 
 namespace {
 
-double energy(const lighting::Light& light) {
-  return (light.radiance * Eigen::Vector3f(0.2126F, 0.7152F, 0.0722F)).cast<double>().sum();
-}
+double energy(const lighting::Light& light) { return (light.radiance * kLuminanceWeights).cast<double>().sum(); }
 
 lighting::Observations thinned(const lighting::Observations& all, Eigen::Index kept, Eigen::Index step) {
   const auto rows = Eigen::seqN(Eigen::Index{0}, kept, step);

@@ -4,6 +4,7 @@
 #include "faceprobe/core/parallel.h"
 #include "faceprobe/core/sphere_grid.h"
 #include "faceprobe/io/data_files.h"
+#include "faceprobe/io/photo.h"
 #include "faceprobe/lighting/transport.h"
 #include "faceprobe/pipeline/estimate.h"
 #include "faceprobe/render/path_tracer.h"
@@ -92,6 +93,17 @@ std::string furnace() {
   return text;
 }
 
+std::string readable_photos() {
+  const std::vector<std::string> formats = io::photo_formats();
+  std::string text;
+  for (const std::string& format : formats) text += (text.empty() ? "" : ", ") + format;
+  for (const char* needed : {"jpeg", "png", "exr"}) {
+    if (std::ranges::count(formats, needed) == 0)
+      fail("only " + text + " can be read, and not " + needed + ": OpenImageIO is not built as Debian's is.");
+  }
+  return text;
+}
+
 }  // namespace
 
 std::vector<Check> self_test() {
@@ -105,7 +117,10 @@ std::vector<Check> self_test() {
   }));
   checks.push_back(checked("light", known_light));
   checks.push_back(checked("drawing", furnace));
-  checks.push_back(checked("processors", [] { return std::to_string(default_thread_count()); }));
+  checks.push_back(checked("photos", readable_photos));
+  checks.push_back(checked("device", [] {
+    return "the processor, " + std::to_string(default_thread_count()) + " threads; no other is used";
+  }));
   return checks;
 }
 

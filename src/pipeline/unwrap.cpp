@@ -1,8 +1,10 @@
 #include "faceprobe/pipeline/unwrap.h"
 
+#include "faceprobe/core/angles.h"
 #include "faceprobe/core/color.h"
 #include "faceprobe/core/error.h"
 #include "faceprobe/core/parallel.h"
+#include "faceprobe/core/quantile.h"
 #include "faceprobe/core/smooth_step.h"
 #include "pipeline/camera_of.h"
 #include "pipeline/unwrap_fill.h"
@@ -15,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace faceprobe::pipeline {
 namespace {
@@ -170,7 +173,7 @@ struct Texels {
   Image colour, normal, weight, skin;  // `skin`: 1 where the landmarks say there is face, seen or not
 };
 
-// Whether nothing lies in front of a point of the picture. The least depth around it: at edges the cells are coarse.
+// Whether nothing lies in front of a point of the picture; the slack is for edges, where the cells are coarse.
 bool uncovered(const MeshRaster& raster, const Eigen::Vector2f& at, float depth) {
   const int x = static_cast<int>(std::floor(at.x()));
   const int y = static_cast<int>(std::floor(at.y()));
@@ -237,19 +240,18 @@ Eigen::Vector3f skin_colour(const Image& colour, const Image& bare) {
     }
   }
   if (light.empty()) return Eigen::Vector3f::Constant(0.3F);
-  const auto middle = light.begin() + static_cast<std::ptrdiff_t>(light.size() / 2);
-  std::nth_element(light.begin(), middle, light.end());
+  const float middle = upper_median_of(std::move(light));
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double count = 0;
   for (int y = 0; y < colour.height(); ++y) {
     for (int x = 0; x < colour.width(); ++x) {
-      const float relative = luminance(colour.pixel(x, y)) / std::max(1e-6F, *middle);
+      const float relative = luminance(colour.pixel(x, y)) / std::max(1e-6F, middle);
       if (bare(x, y) <= 0.5F || relative < 0.5F || relative > 1.5F) continue;
       sum += Eigen::Map<const Eigen::Vector3f>(colour.pixel(x, y)).cast<double>();
       count += 1.0;
     }
   }
-  return count > 0 ? Eigen::Vector3f((sum / count).cast<float>()) : Eigen::Vector3f::Constant(*middle);
+  return count > 0 ? Eigen::Vector3f((sum / count).cast<float>()) : Eigen::Vector3f::Constant(middle);
 }
 
 // Fringes and sideburns: what is dark well above the brows or beside the face is hair, and not the skin's.
@@ -317,8 +319,8 @@ Unwrapped unwrap_face(const io::Photo& photo, const face::Face& face, const face
   const Eigen::Vector3d forward = fit.camera_from_head.linear().col(2);
   const Eigen::Vector3d to_camera = -fit.camera_from_head.translation().normalized();
   const Eigen::Vector3d seen_from = fit.camera_from_head.linear().transpose() * to_camera;
-  out.report.yaw_deg = std::atan2(seen_from.x(), seen_from.z()) * 180.0 / 3.14159265358979;
-  out.report.pitch_deg = std::asin(std::clamp(forward.y(), -1.0, 1.0)) * 180.0 / 3.14159265358979;
+  out.report.yaw_deg = degrees(std::atan2(seen_from.x(), seen_from.z()));
+  out.report.pitch_deg = degrees(std::asin(std::clamp(forward.y(), -1.0, 1.0)));
   out.report.residual_px = fit.residual_px;
   out.report.face_width_px = static_cast<double>(face.box.width);
   if (std::abs(out.report.yaw_deg) > options.max_yaw_deg) {

@@ -1,12 +1,14 @@
 #include "pipeline/unwrap_shading.h"
 
 #include "faceprobe/core/color.h"
+#include "faceprobe/core/quantile.h"
 #include "faceprobe/core/sh.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace faceprobe::pipeline {
@@ -23,12 +25,6 @@ using Basis = Eigen::Matrix<double, 9, 1>;
 Basis basis_of(const float* normal) {
   const Eigen::Vector3d n = Eigen::Map<const Eigen::Vector3f>(normal).cast<double>().normalized();
   return sh::basis(2, n);
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 }  // namespace
@@ -55,13 +51,14 @@ double remove_slow_shading(const Image& normal, const Image& weight, Image& colo
   logs.reserve(texels.size());
   for (const Texel& texel : texels) logs.push_back(texel.log_light);
   Basis fit = Basis::Zero();
-  fit[0] = median(logs) / texels.front().basis[0];
+  fit[0] = upper_median_of(std::move(logs)) / texels.front().basis[0];
   std::vector<double> residual(texels.size());
   for (int round = 0; round < kRounds; ++round) {
     for (std::size_t i = 0; i < texels.size(); ++i) residual[i] = texels[i].log_light - fit.dot(texels[i].basis);
     std::vector<double> size(residual.size());
     std::transform(residual.begin(), residual.end(), size.begin(), [](double r) { return std::abs(r); });
-    const double scale = std::max(0.02, 2.0 * 1.4826 * median(size));  // Cauchy's weights at two deviations
+    // Cauchy's weights at two deviations.
+    const double scale = std::max(0.02, 2.0 * 1.4826 * upper_median_of(std::move(size)));
     Eigen::Matrix<double, 9, 9> normal_matrix = Eigen::Matrix<double, 9, 9>::Zero();
     Basis right = Basis::Zero();
     double total = 0;

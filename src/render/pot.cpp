@@ -2,6 +2,7 @@
 #include "loft.h"
 
 #include "faceprobe/core/angles.h"
+#include "faceprobe/core/smooth_step.h"
 
 #include <cmath>
 #include <utility>
@@ -61,7 +62,7 @@ TriangleMesh spout() {
   const Bezier<2> upper{{1.6F, 1.35F}, {2.55F, 1.4F}, {2.25F, 2.0F}, {2.72F, 2.4F}};
   const Bezier<2> lower{{1.6F, 0.42F}, {3.2F, 0.6F}, {2.4F, 2.0F}, {3.28F, 2.4F}};
   const auto ring_at = [&](float t) {
-    const float tip = t * t * (3 - 2 * t);
+    const float tip = smooth_step(0.0F, 1.0F, t);
     return ring_between(upper, lower, t, 0.52F * (1 - tip) + 0.2F * tip);
   };
   constexpr int kSteps = 40;

@@ -1,5 +1,6 @@
 #include "train/augment.h"
 
+#include "faceprobe/core/angles.h"
 #include "faceprobe/core/color.h"
 #include "faceprobe/core/mirror.h"
 #include "faceprobe/core/region.h"
@@ -38,7 +39,7 @@ void put_before(TrainingPicture& picture, Random& random) {
   const double y0 = random.uniform() * static_cast<double>(picture.linear.height());
   const double a = random.between(0.05, 0.22) * size;
   const double b = random.between(0.05, 0.22) * size;
-  const double angle = random.between(0, 3.14159265);
+  const double angle = random.between(0, kPi);
   std::array<float, 3> colour{};
   for (float& channel : colour) channel = static_cast<float>(random.log_between(0.01, 0.8));
   for (int y = 0; y < picture.linear.height(); ++y) {

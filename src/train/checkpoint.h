@@ -8,19 +8,23 @@
 
 namespace faceprobe::train {
 
+// Batch normalisation measures the layers below it in buffers, which fit the weights that they were measured with. Other buffers are constants.
+enum class Averaged { kParameters, kParametersAndBuffers };
+
 // Running mean of a module's parameters, which is smoother than they are (Polyak & Juditsky 1992).
 class WeightAverage {
  public:
-  WeightAverage(const torch::nn::Module& module, double decay);
+  WeightAverage(const torch::nn::Module& module, double decay, Averaged which = Averaged::kParameters);
   // Early on the mean follows faster, so that it is not of the first guess.
   void add(const torch::nn::Module& module, std::int64_t step);
-  // The module's parameters change places with the mean.
+  // What is averaged of the module changes places with the mean.
   void swap(torch::nn::Module& module);
 
   std::vector<torch::Tensor>& values() { return values_; }
 
  private:
   double decay_;
+  Averaged which_;
   std::vector<torch::Tensor> values_;
 };
 

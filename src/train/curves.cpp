@@ -128,7 +128,7 @@ std::string to_csv(const std::vector<TrainRow>& rows) {
                     row.validation.colour_deg);
       csv += line.data();
     } else {
-      csv += ",,,,";
+      csv += ",,,,,,,,";
     }
     csv += '\n';
   }

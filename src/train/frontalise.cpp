@@ -1,5 +1,7 @@
 #include "train/frontalise.h"
 
+#include "faceprobe/core/quantile.h"
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -39,12 +41,10 @@ std::vector<bool> well_seen(const FaceTemplate& square, const Eigen::MatrixX2d& 
     const auto i = static_cast<Eigen::Index>(t);
     enlargement[t] = facing_area(points, square.triangles.row(i)) / square.areas_m2(i);
   }
-  std::vector<double> sorted = enlargement;
-  const auto facing = sorted.begin() + static_cast<std::ptrdiff_t>(kFacingQuantile * static_cast<double>(count - 1));
-  std::nth_element(sorted.begin(), facing, sorted.end());
+  const double facing = quantile_of(enlargement, kFacingQuantile);
   std::vector<bool> seen(count);
   for (std::size_t t = 0; t < count; ++t) {
-    seen[t] = enlargement[t] > 0 && enlargement[t] * max_foreshortening >= *facing;
+    seen[t] = enlargement[t] > 0 && enlargement[t] * max_foreshortening >= facing;
   }
   return seen;
 }

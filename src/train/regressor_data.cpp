@@ -1,5 +1,6 @@
 #include "train/regressor_data.h"
 
+#include "faceprobe/core/angles.h"
 #include "faceprobe/core/color.h"
 #include "faceprobe/core/error.h"
 #include "faceprobe/core/parallel.h"
@@ -36,14 +37,13 @@ void put_example(const ByteImage& picture, const float* light, std::int64_t at, 
 }
 
 MapCropOptions drawn_view(Random random, const RegressorConfig& config) {
-  constexpr double kTurn = 3.14159265358979;
   constexpr double kPitch = 0.12;                             // standard deviation, radians
   constexpr double kNarrowest = 0.7, kWidest = 1.4;           // radians
   constexpr double kDarkestView = 0.6, kBrightestView = 1.6;  // of the usual exposure
   MapCropOptions view;
   view.px = config.picture_px;
   view.field_of_view_rad = static_cast<float>(random.between(kNarrowest, kWidest));
-  view.yaw_rad = static_cast<float>(random.between(-kTurn, kTurn));
+  view.yaw_rad = static_cast<float>(random.between(-kPi, kPi));
   view.pitch_rad = static_cast<float>(random.normal(0, kPitch));
   view.exposure = static_cast<float>(random.log_between(kDarkestView, kBrightestView));
   return view;

@@ -1,6 +1,7 @@
 #include "train/regressor_loss.h"
 
 #include "faceprobe/core/angles.h"
+#include "faceprobe/core/color.h"
 #include "faceprobe/core/sphere_grid.h"
 
 #include <vector>
@@ -22,7 +23,7 @@ torch::Tensor directions_of(const SphereGrid& grid) {
 }
 
 torch::Tensor luminance_of(const torch::Tensor& light) {
-  return (light * torch::tensor({0.2126F, 0.7152F, 0.0722F})).sum(-1, true);
+  return (light * torch::tensor({kLuminanceWeights[0], kLuminanceWeights[1], kLuminanceWeights[2]})).sum(-1, true);
 }
 
 // Soft where it clips, so that a lamp that is too bright still has a gradient.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "faceprobe/core/angles.h"
 #include "faceprobe/train/config.h"
 
 #include <cmath>
@@ -8,7 +9,7 @@ namespace faceprobe::train {
 
 // From 1 along half a cosine to final_share; done: 0 to 1.
 inline double half_cosine(double done, double final_share) {
-  return final_share + (1.0 - final_share) * 0.5 * (1.0 + std::cos(3.14159265358979 * done));
+  return final_share + (1.0 - final_share) * 0.5 * (1.0 + std::cos(kPi * done));
 }
 
 // Rises in a line over the warm-up, then falls along half a cosine to final_share of the peak at the last step.

@@ -4,6 +4,7 @@
 #include "faceprobe/core/color.h"
 #include "faceprobe/core/error.h"
 #include "faceprobe/core/parallel.h"
+#include "faceprobe/core/quantile.h"
 #include "faceprobe/core/random.h"
 #include "faceprobe/lighting/sky.h"
 #include "net/torch/sky_cnn.h"
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace faceprobe::train {
 namespace {
@@ -61,7 +63,7 @@ void fill(const Place& place, const MapCropOptions& view, std::uint8_t* picture,
   std::ranges::copy(encode_srgb(crop).values(), picture);
   Eigen::Map<Eigen::Vector3f>(sun, 3) = level_from_map(view) * sun_direction(place.sky).cast<float>();
   const double gain = gain_of_crop(place.small, view, crop);
-  const double sunlight = sun_irradiance(place.sky).dot(Eigen::Vector3d(0.2126, 0.7152, 0.0722));
+  const double sunlight = sun_irradiance(place.sky).dot(luminance_weights<double>());
   const auto set = [&](net::SkyNumber which, double value) {
     numbers[static_cast<int>(which)] = static_cast<float>(value);
   };
@@ -93,10 +95,7 @@ double gain_of_crop(const EnvMap& map, const MapCropOptions& view, const Image& 
       if (there > 0) gains.push_back(static_cast<double>(green / there));
     }
   }
-  if (gains.empty()) return 1;
-  const auto middle = gains.begin() + static_cast<std::ptrdiff_t>(gains.size() / 2);
-  std::nth_element(gains.begin(), middle, gains.end());
-  return *middle;
+  return gains.empty() ? 1 : upper_median_of(std::move(gains));
 }
 
 SkyExamples draw_sky_examples(const std::vector<NamedMap>& maps, const SkyConfig& config, std::uint64_t purpose,

@@ -38,13 +38,13 @@ class Training {
  public:
   Training(const TrainRun& run, const TrainHooks& hooks)
       : run_(run), hooks_(hooks), device_(net::torch_device(run.device)), data_(run.data),
-        model_(make_seeded(run.config)), average_(*model_.module, run.config.average_decay),
+        model_(make_seeded(run.config)), average_(*model_.module, run.config.average_decay, averaged()),
         optimizer_(
             model_.module->parameters(),
             torch::optim::AdamWOptions(run.config.learning_rate).betas({0.9, 0.99}).weight_decay(run.config.weight_decay)) {
     if (!run.start.empty()) {
       begin_with(run.start);
-      average_ = WeightAverage(*model_.module, run.config.average_decay);
+      average_ = WeightAverage(*model_.module, run.config.average_decay, averaged());
     }
     model_.module->to(device_);
     for (torch::Tensor& value : average_.values()) value = value.to(device_);
@@ -108,6 +108,11 @@ class Training {
   static Model make_seeded(const TrainConfig& config) {
     torch::manual_seed(config.seed);
     return make_model(config);
+  }
+
+  // Shi's network is the one with batch normalisation.
+  Averaged averaged() const {
+    return run_.config.architecture == net::kShiArchitecture ? Averaged::kParametersAndBuffers : Averaged::kParameters;
   }
 
   void begin_with(const std::filesystem::path& weights) {

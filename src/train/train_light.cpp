@@ -1,5 +1,6 @@
 #include "faceprobe/train/train_light.h"
 
+#include "faceprobe/core/color.h"
 #include "faceprobe/core/error.h"
 #include "faceprobe/core/parallel.h"
 #include "faceprobe/core/permutation.h"
@@ -79,7 +80,7 @@ Examples mirrored(const Examples& examples, const torch::Tensor& index) {
 
 // Features are square roots of light: grey is the root of the luminance.
 Examples grey(const Examples& examples) {
-  const torch::Tensor weights = torch::tensor({0.2126F, 0.7152F, 0.0722F});
+  const torch::Tensor weights = torch::tensor({kLuminanceWeights[0], kLuminanceWeights[1], kLuminanceWeights[2]});
   const torch::Tensor cells = as_cells(examples.features);
   const torch::Tensor light = (cells.narrow(3, 0, 3).square() * weights).sum(3, true).sqrt().expand({-1, -1, -1, 3});
   const torch::Tensor level = (examples.light * weights).sum(2, true).expand_as(examples.light);

@@ -68,7 +68,7 @@ class RegressorTraining {
   RegressorErrors usual() const {
     const torch::Tensor level = task_.balls().level(training_.light);
     const torch::Tensor mean = (training_.light / level).mean(0, true);
-    const torch::Tensor light = (mean + mean.index_select(1, task_.points().mirror)) * level.log().mean().exp();
+    const torch::Tensor light = 0.5 * (mean + mean.index_select(1, task_.points().mirror)) * level.log().mean().exp();
     return errors([&](std::int64_t, std::int64_t count) { return light.expand({count, -1, -1}); });
   }
 
@@ -168,12 +168,12 @@ RegressorReport trained(const RegressorRun& run, RegressorTask& task, RegressorE
   io::write_file_atomically(run.folder / "config.json", to_json(run.config));
   RegressorReport report;
   report.usual = training.usual();
+  report.weights = run.folder / "weights.safetensors";
   for (int epoch = 0; epoch < run.config.epochs; ++epoch) {
     report.rows.push_back(training.epoch(epoch));
+    training.save(report.weights);  // of a run that is cut off there is something
     if (progress) progress(report.rows.back(), run.config.epochs);
   }
-  report.weights = run.folder / "weights.safetensors";
-  training.save(report.weights);
   io::write_file_atomically(run.folder / "log.csv", regressor_csv(report));
   return report;
 }

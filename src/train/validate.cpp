@@ -1,5 +1,6 @@
 #include "train/validate.h"
 
+#include "faceprobe/core/angles.h"
 #include "faceprobe/core/color.h"
 #include "train/face_loss.h"
 #include "train/to_device.h"
@@ -27,7 +28,7 @@ double mean_of(const torch::Tensor& values, const torch::Tensor& weight) {
 }
 
 torch::Tensor degrees_between(const torch::Tensor& a, const torch::Tensor& b) {
-  return 2 * (0.5 * chord(a, b)).clamp_max(1).asin() * (180 / 3.14159265358979);
+  return 2 * (0.5 * chord(a, b)).clamp_max(1).asin() * degrees(1);
 }
 
 void add_surface(const net::FaceSurface& found, const Batch& batch, Validation& sum) {

@@ -127,6 +127,8 @@ case_insert_odd_input() {
 case_relight() {
   expect_exit 0 relight "$photo" "${quick[@]}" --dim 1 -o dimmed.png
   expect_difference "$photo" dimmed.png 120 100 400 460  # the face, and nothing else
+  expect_exit 0 relight "$photo" "${quick[@]}" --dim 1 -o dimmed.png --json
+  expect_json 1 "$work/stdout" faces
   expect_refused 2 "would stay as it is" relight "$photo" "${quick[@]}" -o same.png
   expect_exit 0 estimate "$photo" "${quick[@]}" -o light.exr
   expect_refused 2 "dim is for" relight "$photo" "${quick[@]}" --dim 1 --map light.exr -o both.png

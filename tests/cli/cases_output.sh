@@ -125,4 +125,7 @@ case_doctor() {
   expect_json ON "$work/stdout" ok
   expect_exit 0 doctor
   expect_stdout "ok   light: a known lamp"
+  expect_stdout "ok   version: "
+  expect_stdout "ok   photos: jpeg, png"
+  expect_stdout "ok   device: the processor"
 }

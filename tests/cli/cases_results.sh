@@ -53,7 +53,9 @@ case_estimate_json() {
 }
 
 case_separate() {
-  expect_exit 0 separate "$photo" -o layers --separator yang
+  expect_exit 0 separate "$photo" -o layers --separator yang --json
+  expect_json 512 "$work/stdout" width_px
+  expect_json layers/highlight.exr "$work/stdout" highlight
   expect_files layers highlight.exr diffuse.exr
   grep -aqF "faceprobe:separator" layers/highlight.exr || fail "the file does not say what made it"
   # Two corners of 32-bit coordinates, the second (511, 599).

@@ -69,6 +69,8 @@ case_train_and_eval() {
   expect_refused 2 "bach" train highlight --config wrong.json --data faces -o other
   expect_refused 3 "nowhere" train highlight --data nowhere -o other
   expect_refused 7 "cuda" train highlight --data faces -o other --device cuda
+  expect_refused 2 "takes no --device" train light --data faces -o other --device cpu
+  expect_refused 2 "takes no --scenes" train highlight --data faces -o other --scenes wrong.json
   expect_refused 5 "tiny.json" eval highlight --data faces --weights tiny.json
   echo '{"batch": 1, "steps": 4, "network": {"widths": [8, 16]}}' >changed.json
   expect_refused 6 "another config" train highlight --config changed.json --data faces -o run

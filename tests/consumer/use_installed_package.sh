@@ -45,3 +45,19 @@ fi
 
 # The installed command finds its libraries by itself.
 "$folder/moved/bin/faceprobe" --version
+
+# The installed Python package too, and its models.
+site=$folder/moved/lib/python3/dist-packages
+if [ -d "$site/faceprobe" ] && [ -f "$photo" ]; then
+  env -u FACEPROBE_DATA_DIR PYTHONPATH="$site" /usr/bin/python3 - "$photo" "$folder/moved" <<'END'
+import sys
+
+import faceprobe as fp
+
+assert fp.__file__.startswith(sys.argv[2]), fp.__file__
+estimate = fp.estimate(sys.argv[1])
+environment = estimate.faces[0].environment.to_numpy()
+assert environment.ndim == 3 and environment.max() > 0
+print("from Python:", environment.shape)
+END
+fi

@@ -44,6 +44,19 @@ TEST(Color, OddValuesClipInsteadOfWrapping) {
   EXPECT_EQ(codes(3, 0), 255);
 }
 
+TEST(Color, LuminanceIsTheWeightedSumInBothPrecisions) {
+  EXPECT_DOUBLE_EQ(luminance_weights<double>().sum(), 1.0);  // white has the luminance of its channels
+  const Eigen::Vector3d colour(0.5, 0.25, 2.0);
+  EXPECT_DOUBLE_EQ(luminance(colour.data()), 0.2126 * 0.5 + 0.7152 * 0.25 + 0.0722 * 2.0);
+  const Eigen::Vector3f single = colour.cast<float>();
+  EXPECT_FLOAT_EQ(luminance(single.data()), 0.4295F);
+  Eigen::MatrixX3f colours(2, 3);
+  colours << single.transpose(), 0.0F, 1.0F, 0.0F;
+  const Eigen::VectorXf levels = colours * kLuminanceWeights;
+  EXPECT_FLOAT_EQ(levels[0], luminance(single.data()));
+  EXPECT_EQ(levels[1], 0.7152F);
+}
+
 TEST(Color, ExposurePutsTheQuantileWhereAsked) {
   Image grey(101, 1, 3);
   for (int i = 0; i <= 100; ++i) {

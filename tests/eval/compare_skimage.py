@@ -6,7 +6,7 @@ Scikit-image is told to follow Wang et al. 2004: Gaussian weights, deviation 1.5
 the same float pictures as doubles; of single precision it would compute in single precision. What differs by definition is checked as such:
 
 - pictures smaller than a window: ours is NaN, theirs refuses;
-- PSNR: eval has none; it is 20 log10(255 / rmse), and of 8-bit pictures what bench_separation prints;
+- PSNR is 20 log10(255 / rmse) of the same error (psnr_of_rmse), and of 8-bit pictures what bench_separation prints;
 - masks: theirs has none; SSIM is the mean of its full map over windows whose centre is in the mask.
 """
 

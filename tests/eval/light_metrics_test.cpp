@@ -104,6 +104,8 @@ TEST_F(LightMetricsTest, ABlackLightIsNoNumber) {
   EXPECT_TRUE(std::isnan(sphere_error(truth, black, grid, render::SphereMaterial::kMatte).si_rmse));
   EXPECT_TRUE(std::isnan(map_error(truth, black).over_truth_range));
   EXPECT_TRUE(std::isnan(main_light_error_deg(truth, black, grid)));
+  // Even light comes from nowhere: its first cell, the pole, is no answer.
+  EXPECT_TRUE(std::isnan(main_light_error_deg(truth, Eigen::MatrixX3f::Ones(grid.cell_count(), 3), grid)));
   EXPECT_TRUE(std::isnan(light_colour_error_deg(truth, black)));
 }
 

@@ -324,15 +324,29 @@ ScoreTable four_photos() {
 
 TEST(ScoreReport, TableOfMethods) {
   const ReportTable table = table_of(four_photos(), "rmse", "RMSE", 1, {"net"});
-  EXPECT_EQ(table.columns, (std::vector<std::string>{"mean", "median", "n"}));
+  // One answered but three photos: their means over all they answered do not compare.
+  EXPECT_EQ(table.columns, (std::vector<std::string>{"mean", "median", "n", "mean of the 3 all have"}));
   ASSERT_EQ(table.rows.size(), 2U);
-  EXPECT_EQ(table.rows[0].values, (std::vector<std::optional<double>>{5.5, 5.5, 4}));
-  EXPECT_EQ(table.rows[1].values, (std::vector<std::optional<double>>{2, 2, 3}));
+  EXPECT_EQ(table.rows[0].values, (std::vector<std::optional<double>>{5.5, 5.5, 4, 5}));
+  EXPECT_EQ(table.rows[1].values, (std::vector<std::optional<double>>{2, 2, 3, 2}));
   EXPECT_EQ(table.rows[1].note, "1 missing");  // the row without the metric is none of it
   EXPECT_TRUE(table.rows[1].ours);
   EXPECT_FALSE(table.rows[0].ours);
   const Summary s = four_photos().summary("rmse", {.method = "yang"});
   EXPECT_EQ(table.rows[0].intervals[0], std::pair(s.mean_low, s.mean_high));
+  EXPECT_EQ(table.better, (std::vector<Better>{Better::kNeither, Better::kNeither, Better::kNeither, Better::kLower}));
+}
+
+TEST(ScoreReport, TableOfMethodsThatAnsweredAll) {
+  ScoreTable scores({.seed = 1, .resamples = 50});
+  for (const char* sample : {"1", "2"}) {
+    for (const char* method : {"yang", "net"})
+      scores.add({.method = method, .sample = sample, .metrics = {{"rmse", 2}}});
+    scores.add(
+        {.method = "silent", .sample = sample, .metrics = {{"rmse", kNan}}});  // answers nothing: no reason to drop all
+  }
+  const ReportTable table = table_of(scores, "rmse", "RMSE");
+  EXPECT_EQ(table.columns, (std::vector<std::string>{"mean", "median", "n"}));
   EXPECT_EQ(table.better, (std::vector<Better>{Better::kLower, Better::kLower, Better::kNeither}));
 }
 
@@ -344,6 +358,7 @@ TEST(ScoreReport, TableByGroup) {
   EXPECT_EQ(table.rows[0].note, "");
   EXPECT_EQ(table.rows[1].values, (std::vector<std::optional<double>>{3, 1.5}));
   EXPECT_EQ(table.rows[1].note, "tan 1 missing");
+  EXPECT_EQ(table.better, (std::vector<Better>{Better::kNeither, Better::kLower}));  // tan's means are of other photos
   EXPECT_TRUE(table.rows[1].ours);
   EXPECT_FALSE(table.rows[1].intervals[0].has_value());  // of one value
   // A photo that only one of them was given.

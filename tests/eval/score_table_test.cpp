@@ -38,7 +38,7 @@ TEST(ScoreTable, CountsWhatAMethodFailedOn) {
   const Summary failed = small_table().summary("rmse", {.method = "net"});
   EXPECT_EQ(failed.count, 1U);
   EXPECT_EQ(failed.missing, 1U);
-  EXPECT_EQ(small_table().summary("ssim", {.method = "net"}).missing, 1U);  // the metric is not in the row at all
+  EXPECT_EQ(small_table().summary("ssim", {.method = "net"}).missing, 0U);  // the metric is in one of the rows only
 }
 
 TEST(ScoreTable, LabelsComeInTheGivenOrderAndThenByName) {

@@ -88,6 +88,7 @@ TEST(ShadingBenchmark, AScaleDoesNotMatterAndAColourDoes) {
     return [estimate](const PhotoInput&) { return estimate; };
   };
   const ScoreTable table = measure_shading(faces, {{"scaled", scaled(1)}, {"red", scaled(1.5F)}}, {.samples = 3});
+  // The data are stored as half floats: a two-thousandth each, a hundredth where dark ones are divided.
   EXPECT_NEAR(table.summary("albedo", {.method = "scaled"}).mean, 0, 0.01);
   EXPECT_NEAR(table.summary("shading", {.method = "scaled"}).mean, 0, 0.01);
   EXPECT_NEAR(table.summary("light_colour", {.method = "scaled"}).mean, 0, 0.1);

@@ -32,7 +32,7 @@ Eigen::Vector3d sky_towards(const SkyParameters& sky, double azimuth_deg, double
 }
 
 double luminance_towards(const SkyParameters& sky, double azimuth_deg, double elevation_deg) {
-  return sky_towards(sky, azimuth_deg, elevation_deg).dot(Eigen::Vector3d(0.2126, 0.7152, 0.0722));
+  return sky_towards(sky, azimuth_deg, elevation_deg).dot(luminance_weights<double>());
 }
 
 TEST(Sky, LuminanceIsThatOfTheFormulas) {

@@ -1,6 +1,7 @@
 #include "faceprobe/lighting/triangulate.h"
 
 #include "faceprobe/core/angles.h"
+#include "faceprobe/core/color.h"
 #include "faceprobe/core/random.h"
 
 #include <gtest/gtest.h>
@@ -24,7 +25,7 @@ MainLight seen_light(const Eigen::Vector3d& towards, double irradiance, const Ei
   MainLight light;
   light.direction = towards.normalized();
   light.irradiance = irradiance;
-  light.colour = colour / (0.2126 * colour[0] + 0.7152 * colour[1] + 0.0722 * colour[2]);
+  light.colour = colour / luminance(colour.data());
   return light;
 }
 

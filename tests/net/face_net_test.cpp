@@ -57,6 +57,7 @@ TEST_F(FaceNetTest, SaysWhatTheTrainingSays) {
   for (int y = 0; y < 8; ++y) {
     for (int x = 0; x < 16; ++x) {
       for (int c = 0; c < 3; ++c) {
+        // Single precision through two dozen layers, summed in another order.
         EXPECT_NEAR(layers.normal_cam(x, y, c), expected.normal[0][c][y][x].item<float>(), 1e-4F);
         const float light = shading[0][c][y][x].item<float>();
         EXPECT_NEAR(layers.shading(x, y, c), light, 1e-4F * (1 + light));
@@ -92,6 +93,7 @@ TEST_F(FaceNetTest, AMirroredPhotoHasTheMirroredLayers) {
   const FaceLayers other = net.layers_both_ways(mirrored(picture), {}, {}, mirrored_normals(mesh));
   for (int y = 0; y < 16; ++y) {
     for (int x = 0; x < 24; ++x) {
+      // The two looks are averaged in another order; the shading is of the order of 10.
       EXPECT_NEAR(other.normal_cam(23 - x, y, 0), -layers.normal_cam(x, y, 0), 1e-6F);
       EXPECT_NEAR(other.normal_cam(23 - x, y, 1), layers.normal_cam(x, y, 1), 1e-6F);
       EXPECT_NEAR(other.shading(23 - x, y, 1), layers.shading(x, y, 1), 1e-5F);

@@ -41,7 +41,7 @@ TEST(HighlightHead, SmallAmountsHaveTheColourOfTheLight) {
 
 TEST(HighlightHead, LargeAmountsTakeThePictureWhole) {
   const torch::Tensor all = head_of({100, 0, 0, 0}, {0.8, 0.5, 0.4});
-  EXPECT_NEAR(all[0].item<double>(), 0.8, 1e-6);
+  EXPECT_NEAR(all[0].item<double>(), 0.8, 1e-6);  // single precision
   EXPECT_NEAR(all[2].item<double>(), 0.4, 1e-6);
 }
 
@@ -50,7 +50,7 @@ TEST(HighlightHead, ExposureCancelsOut) {
   const torch::Tensor raw = torch::randn({1, 4, 8, 8});
   const torch::Tensor light = torch::rand({1, 3, 8, 8});
   const torch::Tensor difference = highlight_from_raw(raw, light * 4) - 4 * highlight_from_raw(raw, light);
-  EXPECT_LT(difference.abs().max().item<float>(), 1e-5F);
+  EXPECT_LT(difference.abs().max().item<float>(), 1e-5F);  // rounding of sums of numbers up to 4
 }
 
 TEST(HighlightHead, GradientAgreesWithDifferences) {
@@ -70,9 +70,10 @@ TEST(HighlightHead, GradientAgreesWithDifferences) {
     up.view(-1)[i] += kStep;
     down.view(-1)[i] -= kStep;
     const double numeric = (loss(up) - loss(down)).item<double>() / (2 * kStep);
-    EXPECT_NEAR(analytic[i].item<double>(), numeric, 1e-7) << i;
+    EXPECT_NEAR(analytic[i].item<double>(), numeric, 1e-7)
+        << i;  // rounding of the loss, some 1e-14, over the step, and curvature
   }
-  EXPECT_GT(analytic.abs().max().item<double>(), 0.05);
+  EXPECT_GT(analytic.abs().max().item<double>(), 0.05);  // there is a slope to agree on
 }
 
 TEST(HighlightHead, GradientIsFiniteWhereThereIsNoLight) {

@@ -103,9 +103,11 @@ for name in environment.exr environment.hdr environment.png report.json overview
   [ -s "$tree/photos/light/$name" ] || die "estimate wrote no $name"
 done
 expect 3 faceprobe estimate /photos/light/report.json -o /photos/none
-if grep -q serve <(as_user faceprobe --help); then
-  grep -qxF /usr/share/faceprobe/web/index.html "$folder/listed" || echo "note: faceprobe serve is there, its page is not"
-fi
+grep -qxF /usr/share/faceprobe/web/index.html "$folder/listed" || die "the page of faceprobe serve is not there"
+grep -q '^ok .*page: /usr/share/faceprobe/web/index.html' <(as_user faceprobe doctor) || die "faceprobe doctor does not find the page"
+for verb in estimate insert serve; do
+  grep -qxF "/usr/share/man/man1/faceprobe-$verb.1.gz" "$folder/listed" || die "there is no manual page of $verb"
+done
 
 if [ $# = 2 ]; then
   step "apt-get install $(basename "$2")"

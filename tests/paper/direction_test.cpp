@@ -30,7 +30,7 @@ void write_yale(const std::filesystem::path& folder) {
   write_text(folder / "lights.csv",
              "file,subject,azimuth_deg,elevation_deg\r\n"
              "a/front.png,a,5,0\r\na/left.png,a,40,0\r\na/far.png,a,-80,0\r\n"
-             "b/gone.png,b,0,0\r\nb/up.png,b,0,20\r\n");
+             "b/gone.png,b,0,0\r\nb/up.png,b,0,25\r\n");
 }
 
 TEST(YalePictures, AreThoseThatAreThereWithTheirLightsInOurFrame) {
@@ -40,8 +40,8 @@ TEST(YalePictures, AreThoseThatAreThereWithTheirLightsInOurFrame) {
   ASSERT_EQ(pictures.size(), 3U);  // one is too far off the axis, one has no file
   EXPECT_EQ(pictures[1].name, "left");
   EXPECT_NEAR(azimuth_deg(pictures[1].light), -40, 1e-9);  // the database counts towards the subject's right
-  EXPECT_NEAR(elevation_deg(pictures[2].light), 20, 1e-9);
-  EXPECT_NEAR(pictures[2].axis_deg, 20, 1e-9);
+  EXPECT_NEAR(elevation_deg(pictures[2].light), 25, 1e-9);
+  EXPECT_NEAR(pictures[2].axis_deg, 25, 1e-9);
   const std::vector<YalePicture> every_second = yale_pictures(folder.path(), 2);
   ASSERT_EQ(every_second.size(), 2U);
   EXPECT_EQ(every_second[1].name, "up");
@@ -58,6 +58,7 @@ TEST(MeasureYale, StraightAheadIsOffByTheFlashsOwnAngle) {
   write_yale(folder.path());
   const eval::ScoreTable scores = measure_yale(yale_pictures(folder.path(), 1), {});
   EXPECT_EQ(scores.methods(), std::vector<std::string>{kStraightAhead});
+  // 25 degrees are of the second subset.
   EXPECT_EQ(scores.labels("flash"), (std::vector<std::string>{"0 - 12", "12 - 25", "25 - 50"}));
   EXPECT_NEAR(scores.known_values("main_light_deg", {.group = "flash", .label = "25 - 50"}).at(0), 40, 1e-9);
 }

@@ -22,11 +22,26 @@ TEST(Headlines, AreOursAndTheBestRival) {
   const std::string text = headlines(with_rows({{.name = "transport", .values = {28.26, 23, 97}, .ours = true},
                                                 {.name = "transport without the prior", .values = {20, 1, 97}},
                                                 {.name = "truth in harmonics of order 2", .values = {3, 1, 97}},
+                                                {.name = "paper", .values = {43, 1, 97}},
                                                 {.name = "knorr and kurz", .values = {41.5, 1, 97}},
                                                 {.name = "ambient", .values = {52, 1, 97}},
                                                 {.name = "failed", .values = {std::nullopt, std::nullopt, 0}}}));
   EXPECT_NE(text.find("mean of 97 synthetic photos | 28.3 | 41.5 (knorr and kurz) |\n"), std::string::npos) << text;
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 3);  // two of head, one line: the other sections are not there
+}
+
+TEST(Headlines, ThePapersOwnRowIsARival) {
+  const std::string text = headlines(with_rows({{.name = "transport", .values = {28, 23, 97}, .ours = true},
+                                                {.name = "paper", .values = {37.9, 1, 97}},
+                                                {.name = "ambient", .values = {52, 1, 97}}}));
+  EXPECT_NE(text.find("| 28.0 | 37.9 (paper) |\n"), std::string::npos) << text;
+}
+
+TEST(Headlines, TakeWhatAllAnswered) {
+  eval::PaperReport report = with_rows({{.name = "transport", .values = {28, 23, 97, 25}, .ours = true},
+                                        {.name = "ambient", .values = {20, 1, 50, 52}}});
+  report.sections[0].tables[1].columns.push_back(eval::common_column(50));
+  EXPECT_NE(headlines(report).find("| 25.0 | 52.0 (ambient) |\n"), std::string::npos) << headlines(report);
 }
 
 TEST(Headlines, NeedBothAndSaySo) {

@@ -1,6 +1,7 @@
 #include "faceprobe/pipeline/insertion.h"
 
 #include "faceprobe/core/angles.h"
+#include "faceprobe/core/color.h"
 #include "faceprobe/core/sphere_grid.h"
 #include "faceprobe/io/picture_file.h"
 #include "faceprobe/pipeline/insertion_files.h"
@@ -269,7 +270,7 @@ TEST(Insertion, TheNearestFacesMapIsTaken) {
   EXPECT_EQ(value({320, 240}, 1), 2);  // .3 m from the one, .64 from the other
 }
 
-double luminance_of(const Eigen::Vector3d& rgb) { return rgb.dot(Eigen::Vector3d(0.2126, 0.7152, 0.0722)); }
+double luminance_of(const Eigen::Vector3d& rgb) { return rgb.dot(luminance_weights<double>()); }
 
 // The map of a face under a reddish patch of light there, as strong as a lamp of that intensity, and an even surround.
 void light_face(FaceEstimate& face, const Eigen::Vector3d& towards, double irradiance) {
@@ -290,9 +291,11 @@ void light_face(FaceEstimate& face, const Eigen::Vector3d& towards, double irrad
 Estimate under_one_lamp(const Eigen::Vector3d& lamp_m) {
   Estimate estimate = only_face(100);
   estimate.faces = {face_at({-0.6, 0, -2}, 80, 60), face_at({0.7, 0.1, -2.2}, 500, 55)};
+  double intensity = 6;
   for (FaceEstimate& face : estimate.faces) {
     const Eigen::Vector3d way = lamp_m - face.face.position_m();
-    light_face(face, way, 6 / way.squaredNorm());
+    light_face(face, way, intensity / way.squaredNorm());
+    intensity *= 1.3;  // the second skin is darker than it is taken to be
   }
   return estimate;
 }
@@ -333,7 +336,7 @@ TEST(Insertion, ANearLampIsPutWhereItStandsAndTakenOutOfTheMap) {
     const Eigen::Vector3d rest = scene.environment.integral();
     const Eigen::Vector3d whole = face.environment.integral();
     EXPECT_LT(luminance_of(rest), 0.5 * luminance_of(whole));  // the lamp was most of it
-    // Irradiance goes with the squared distance that made the intensity; the lamp's own error counts only as far as it lies between the faces.
+    // Of either face: each is lit by the map that is its own.
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(by_lamp[c] + rest[c], whole[c], 0.01 * whole[c]) << i << ' ' << c;
     // What is left is as bright as the surround; interpolated, then scaled to keep each channel's sum.
     const Image& map = scene.environment.radiance();

@@ -1,6 +1,7 @@
 #include "pipeline/posed_face.h"
 
 #include "faceprobe/core/angles.h"
+#include "faceprobe/core/color.h"
 #include "faceprobe/core/microfacet.h"
 #include "faceprobe/core/skin_reflectance.h"
 #include "faceprobe/core/sphere_grid.h"
@@ -118,7 +119,7 @@ Image photograph(const PosedFace& posed, const LitFace& lit) {
 }
 
 Eigen::Vector3d energy_centroid(const Eigen::MatrixX3f& radiance, const Eigen::MatrixX3f& directions) {
-  const Eigen::VectorXd energy = (radiance * Eigen::Vector3f(0.2126F, 0.7152F, 0.0722F)).cast<double>();
+  const Eigen::VectorXd energy = (radiance * kLuminanceWeights).cast<double>();
   return (directions.cast<double>().transpose() * energy).normalized();
 }
 

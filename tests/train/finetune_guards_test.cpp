@@ -227,7 +227,7 @@ TEST(FinetuneGuards, SeveralLightColoursSpreadTheChromaOfShading) {
       const float colour[3] = {lamp * 1.2F + window * 0.8F, lamp + window, lamp * 0.6F + window * 1.3F};
       for (int c = 0; c < 3; ++c) {
         two(x, y, c) = colour[c];
-        one(x, y, c) = brightness * colour[c] / colour[c] * (c == 2 ? 0.7F : 1.0F);
+        one(x, y, c) = brightness * (c == 2 ? 0.7F : 1.0F);
       }
     }
   }

@@ -68,7 +68,7 @@ struct TrainLightTest : public ::testing::Test {
 TEST_F(TrainLightTest, LearnsWhereTheLampIs) {
   const LightReport report = train_light(run_);
   ASSERT_EQ(report.rows.size(), 20U);
-  EXPECT_LT(report.rows.back().validation.diffuse, 0.6 * report.rows.front().validation.diffuse);
+  EXPECT_LT(report.rows.back().validation.diffuse, 0.6 * report.rows.front().validation.diffuse);  // it learnt something
   // The brightest cell is on the lamp's side.
   const net::LightPrior prior(report.weights);
   const SphereGrid grid(lighting::kFeatureNside);
@@ -82,7 +82,7 @@ TEST_F(TrainLightTest, LearnsWhereTheLampIs) {
     photo.light.col(1).maxCoeff(&truth);
     near += grid.direction(static_cast<int>(found)).dot(grid.direction(static_cast<int>(truth))) > 0.8F ? 1 : 0;
   }
-  EXPECT_GE(near, 14);
+  EXPECT_GE(near, 14);  // of 20; by chance a cell within 37 degrees (cosine .8) would be 2
 }
 
 TEST_F(TrainLightTest, TheSameSeedGivesTheSameBytes) {

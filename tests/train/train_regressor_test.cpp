@@ -137,6 +137,9 @@ class TrainRegressorTest : public ::testing::Test {
   RegressorRun run_;
 };
 
+constexpr double kCell_deg = 7.3;  // of the 768 directions in which lights are compared in training
+constexpr double kNotLearnt_deg = 20;
+
 TEST_F(TrainRegressorTest, GardnerLearnsWhereTheLampIs) {
   run_.config.epochs = 18;
   run_.config.mask_share = 0.5;
@@ -147,9 +150,10 @@ TEST_F(TrainRegressorTest, GardnerLearnsWhereTheLampIs) {
   EXPECT_LT(report.rows[8].loss,
             report.rows[0].loss);             // of the mask, though its lobe has narrowed, which makes it harder
   EXPECT_LT(last.loss, report.rows[9].loss);  // of the brightness
+  // Who always answers with the mean light is off by more than kNotLearnt_deg: half its error, and two cells of direction, are learnt.
   EXPECT_LT(last.validation.diffuse, 0.5 * report.usual.diffuse);
-  EXPECT_LT(last.validation.direction_deg, 15);
-  EXPECT_GT(report.usual.direction_deg, 25);
+  EXPECT_LT(last.validation.direction_deg, 2 * kCell_deg);
+  EXPECT_GT(report.usual.direction_deg, kNotLearnt_deg);
 
   const net::LightRegressor regressor(report.weights);
   double off = 0;
@@ -160,7 +164,7 @@ TEST_F(TrainRegressorTest, GardnerLearnsWhereTheLampIs) {
         angle_between_deg(mean_direction(regressor.light(crop_of_map(data.training[0], view))), mean_direction(truth)) /
         12;
   }
-  EXPECT_LT(off, 15);
+  EXPECT_LT(off, 2 * kCell_deg);
 }
 
 TEST_F(TrainRegressorTest, LegendreLearnsWhereTheLampIs) {
@@ -170,9 +174,9 @@ TEST_F(TrainRegressorTest, LegendreLearnsWhereTheLampIs) {
   ASSERT_EQ(report.rows.size(), 12U);
   const RegressorRow& last = report.rows.back();
   EXPECT_LT(last.loss, 0.5 * report.rows[0].loss);
-  EXPECT_LT(last.validation.diffuse, 0.5 * report.usual.diffuse);
-  EXPECT_LT(last.validation.direction_deg, 10);
-  EXPECT_GT(report.usual.direction_deg, 20);
+  EXPECT_LT(last.validation.diffuse, 0.5 * report.usual.diffuse);  // as above; a ball tells more than a room
+  EXPECT_LT(last.validation.direction_deg, 1.5 * kCell_deg);
+  EXPECT_GT(report.usual.direction_deg, kNotLearnt_deg);
 
   const net::LightRegressor regressor(report.weights);
   Random random({3});
@@ -184,7 +188,7 @@ TEST_F(TrainRegressorTest, LegendreLearnsWhereTheLampIs) {
     const Eigen::MatrixX3f truth = grid_from_env_map(ball.environment, SphereGrid(net::LightRegressor::kNside));
     off += angle_between_deg(mean_direction(light), mean_direction(truth)) / 12;
   }
-  EXPECT_LT(off, 10);
+  EXPECT_LT(off, 1.5 * kCell_deg);
 }
 
 TEST_F(TrainRegressorTest, TheSameSeedGivesTheSameBytes) {

@@ -63,6 +63,7 @@ struct TrainSkyTest : public ::testing::Test {
 TEST_F(TrainSkyTest, LearnsWhereTheSunStands) {
   const SkyReport report = train_sky(run_);
   ASSERT_EQ(report.rows.size(), 16U);
+  // It learnt something: two thirds of what a constant answer is off by, and of the numbers' first error, are bounds that noise does not pass.
   EXPECT_LT(report.validation.median_deg, 0.6 * report.guess.median_deg);
   EXPECT_GT(report.validation.within_45, report.guess.within_45);
   EXPECT_LT(report.rows.back().validation.numbers, 0.7 * report.rows.front().validation.numbers);
@@ -90,7 +91,7 @@ TEST_F(TrainSkyTest, ExamplesSayWhatTheirCropsShow) {
   run_.config.crops_per_map = 40;
   const SkyExamples examples = draw_sky_examples({map}, run_.config, 7, 2);
   ASSERT_EQ(examples.count(), 40);
-  EXPECT_NEAR(examples.ground_albedo, 0.2, 0.05);
+  EXPECT_NEAR(examples.ground_albedo, 0.2, 0.05);  // read off a map that was resampled from 3072 cells
   const float* sun = examples.sun.data_ptr<float>();
   const float* numbers = examples.numbers.data_ptr<float>();
   const auto number = [&](int i, net::SkyNumber which) {
@@ -101,7 +102,7 @@ TEST_F(TrainSkyTest, ExamplesSayWhatTheirCropsShow) {
     const Eigen::Vector3d towards = Eigen::Map<const Eigen::Vector3f>(sun + 3 * i).cast<double>();
     EXPECT_NEAR(elevation_deg(towards), 40, 1.5);  // the map's texels are 2.8 degrees wide
     turned_right += azimuth_deg(towards) > 0 ? 1 : 0;
-    EXPECT_NEAR(number(i, net::SkyNumber::kTurbidity), 3, 0.3);
+    EXPECT_NEAR(number(i, net::SkyNumber::kTurbidity), 3, 0.3);  // of the fit to that map, whose cells blur the horizon
     EXPECT_LE(std::abs(degrees(number(i, net::SkyNumber::kCameraElevation))), run_.config.most_pitch_deg);
   }
   EXPECT_GT(turned_right, 5);  // drawn from all around

@@ -1,7 +1,7 @@
 #pragma once
 // The few figures of the report that a first page quotes.
 //
-//   const std::string table = headlines(eval::report_from_json(io::read_text("docs/results.json")));
+//   const std::string table = headlines(eval::report_from_json(text));
 
 #include "faceprobe/eval/paper_report.h"
 
@@ -9,8 +9,8 @@
 
 namespace faceprobe::cli {
 
-// A Markdown table: what was measured, ours, the best of the others. What knows the truth, or is ours with another option, is no rival; a figure
-// that the report lacks has no line. Throws Error(kInput) where it has none of them.
+// A Markdown table: what was measured, ours, the best of the others. What knows the truth, or is ours with another option, is no rival, but the
+// paper's own solver and network are; a figure that the report lacks has no line. Throws Error(kInput) where it has none of them.
 std::string headlines(const eval::PaperReport& report);
 
 }  // namespace faceprobe::cli

@@ -17,11 +17,6 @@ constexpr double kNoAgreement = std::numeric_limits<double>::quiet_NaN();
 
 SphereGrid grid_of(const lighting::Light& light) { return SphereGrid::of_cells(light.radiance.rows()); }
 
-// An even sky has no direction: its brightest cell is a rounding error.
-bool is_even(const Eigen::VectorXd& luminance) {
-  return luminance.maxCoeff() - luminance.minCoeff() <= 1e-4 * luminance.maxCoeff();
-}
-
 std::optional<Eigen::Vector3d> unit(const Eigen::Vector3d& sum) {
   if (!(sum.norm() > 1e-9)) return std::nullopt;
   return sum.normalized();
@@ -42,7 +37,7 @@ std::vector<Eigen::Vector3d> light_directions(const pipeline::LightResult& resul
   for (const lighting::MainLight& light : result.lights) directions.push_back(light.direction);
   if (!directions.empty()) return directions;
   const Eigen::VectorXd values = luminances(result.light);
-  if (is_even(values)) return {};
+  if (lighting::is_even(values)) return {};
   Eigen::Index brightest = 0;
   values.maxCoeff(&brightest);
   return {grid_of(result.light).direction(static_cast<int>(brightest)).cast<double>()};
@@ -50,7 +45,7 @@ std::vector<Eigen::Vector3d> light_directions(const pipeline::LightResult& resul
 
 std::optional<Eigen::Vector3d> energy_centroid(const pipeline::LightResult& result) {
   const Eigen::VectorXd values = luminances(result.light);
-  if (is_even(values)) return std::nullopt;
+  if (lighting::is_even(values)) return std::nullopt;
   std::vector<double> sorted(values.begin(), values.end());
   std::nth_element(sorted.begin(), sorted.begin() + values.size() / 2, sorted.end());
   const double middle = sorted[static_cast<std::size_t>(values.size() / 2)];
@@ -89,7 +84,7 @@ double nearest_deg(const Eigen::Vector3d& direction, const std::vector<Eigen::Ve
 std::vector<double> agreement_with_others(const Eigen::MatrixXd& maps, const std::vector<int>& person) {
   Eigen::MatrixXd unit_maps = maps.rowwise() - maps.colwise().mean();
   for (Eigen::Index i = 0; i < maps.cols(); ++i) {
-    const bool even = is_even(maps.col(i));
+    const bool even = lighting::is_even(maps.col(i));
     unit_maps.col(i) = even ? Eigen::VectorXd::Constant(maps.rows(), kNoAgreement) : unit_maps.col(i).normalized();
   }
   const Eigen::MatrixXd correlation = unit_maps.transpose() * unit_maps;

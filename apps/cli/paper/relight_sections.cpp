@@ -7,6 +7,7 @@
 #include "rival_light_methods.h"
 #include "scene_table.h"
 
+#include <algorithm>
 #include <iterator>
 #include <utility>
 
@@ -26,7 +27,11 @@ eval::ReportSection object_section(const eval::RelightScores& scores, bool bunny
               "the histograms of its "
               "supplement. Photos are 8-bit and clipped, faces are found, layers are the networks'. Each picture is "
               "divided by the brightest "
-              "pixel of its own diffuse one, so that a lamp behind the head, which no skin shows, moves everything.",
+              "pixel of its own diffuse one, so that a lamp behind the head, which no skin shows, moves everything. "
+              "Gardner's and Hold-Geoffroy's networks see the scene behind the head, level, where the photos' cameras "
+              "tilt by "
+              "some degrees; the first was made for rooms and the second for the open, which the tables by scene tell "
+              "apart.",
       .command =
           "faceprobe eval relight --data LIGHT --object DIR/objects/stanford-bunny.obj --scenes DIR/hdri/dev.csv"};
   for (const char* metric : {"diffuse", "glossy"}) {
@@ -79,6 +84,8 @@ eval::ReportSection sun_section(const eval::ScoreTable& table) {
     return section;
   }
   section.tables.push_back(table_of(table, "sun_centroid", "Centroid, degrees", 1, kOurs));
+  if (table.groups().contains("scene"))
+    section.tables.push_back(table_by_group(table, "sun_centroid", "scene", "Centroid by scene, degrees", 1, kOurs));
   section.tables.push_back(table_of(table, "sun_azimuth", "Azimuth alone, degrees", 1, kOurs));
   section.tables.push_back(table_of(table, "sun_elevation", "Elevation alone, degrees", 1, kOurs));
   section.plots = {cumulative_of(table, "sun_centroid", "Photos within an error of the centroid", "degrees", kOurs)};
@@ -109,9 +116,11 @@ Sections relight_sections(const PaperPlan& plan) {
     sections[0].missing +=
         " No rows of Knorr and Kurz and of the mean light: they learn from traced training faces, which --training "
         "names.";
+  } else if (std::ranges::count(scores.table.methods(), "knorr and kurz") == 0) {
+    sections[0].missing += " No row of Knorr and Kurz: the training faces are not traced (`faceprobe trace`).";
   }
   if (!std::filesystem::exists(scenes))
-    sections[0].missing += " Scenes are not told apart: " + scenes.string() + " is not there.";
+    sections[0].missing += " Scenes are not told apart: there is no hdri/dev.csv in the data folder.";
   return sections;
 }
 

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <span>
 
 namespace faceprobe::cli {
 
@@ -17,15 +16,7 @@ namespace fs = std::filesystem;
 
 constexpr std::int64_t kMostBytes = std::int64_t{1} << 30;
 
-std::string hash_of_file(const fs::path& file) {
-  const std::vector<std::byte> bytes = io::read_file(file, kMostBytes);
-  return io::sha256_hex(bytes.data(), bytes.size());
-}
-
-std::string hash_of_text(const std::string& text) {
-  const auto bytes = std::as_bytes(std::span(text));
-  return io::sha256_hex(bytes.data(), bytes.size());
-}
+std::string hash_of_file(const fs::path& file) { return io::sha256_of_file(file, kMostBytes); }
 
 // The pictures themselves follow from the recipe and the names of what they were made of, which the index holds with every shard's size.
 std::string hash_of_faces(const fs::path& folder) {
@@ -36,11 +27,38 @@ std::string hash_of_faces(const fs::path& folder) {
   return text;
 }
 
+// Names, sizes and times of the files: to read gigabytes of photos would take longer than to look at them. Meshes and traced photos beside the
+// faces are told by these, too.
+std::string listing_of(const fs::path& folder) {
+  std::vector<std::string> lines;
+  std::error_code gone;
+  for (fs::recursive_directory_iterator it(folder, fs::directory_options::follow_directory_symlink, gone), end;
+       it != end; it.increment(gone)) {
+    if (!it->is_regular_file(gone)) continue;
+    lines.push_back(fs::relative(it->path(), folder, gone).string() + ' ' + std::to_string(it->file_size(gone)) + ' ' +
+                    std::to_string(it->last_write_time(gone).time_since_epoch().count()));
+  }
+  std::ranges::sort(lines);
+  std::string text;
+  for (const std::string& line : lines) text += line + '\n';
+  return text;
+}
+
+std::string hash_of_rivals(const fs::path& folder) {
+  if (folder.empty() || !fs::is_directory(folder)) return "none";
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() == ".safetensors") files.push_back(entry.path());
+  }
+  std::ranges::sort(files);
+  std::string text;
+  for (const fs::path& file : files) text += file.filename().string() + hash_of_file(file);
+  return text;
+}
+
 std::optional<Sections> read_sections(const fs::path& file) {
   if (!fs::exists(file)) return std::nullopt;
-  const std::vector<std::byte> bytes = io::read_file(file, kMostBytes);
-  const auto* text = reinterpret_cast<const char*>(bytes.data());
-  const nlohmann::json json = nlohmann::json::parse(text, text + bytes.size(), nullptr, false);
+  const nlohmann::json json = nlohmann::json::parse(io::read_text(file, kMostBytes), nullptr, false);
   if (!json.is_array()) return std::nullopt;
   Sections sections;
   try {
@@ -53,22 +71,17 @@ std::optional<Sections> read_sections(const fs::path& file) {
 
 }  // namespace
 
-std::string key_of(const PaperPlan& plan) {
+std::string key_of(const PaperPlan& plan, Asks asks) {
   std::string text = hash_of_file("/proc/self/exe");
   for (const char* name : {"face.safetensors", "light.safetensors"}) text += hash_of_file(io::data_file(name));
   for (const fs::path& folder : {plan.faces, plan.light, plan.groups, plan.training}) {
-    text += folder.empty() ? "none" : hash_of_faces(folder);
+    text += folder.empty() ? "none" : hash_of_faces(folder) + listing_of(folder);
   }
-  if (!plan.rivals.empty() && fs::is_directory(plan.rivals)) {
-    std::vector<fs::path> files;
-    for (const auto& entry : fs::directory_iterator(plan.rivals)) {
-      if (entry.path().extension() == ".safetensors") files.push_back(entry.path());
-    }
-    std::ranges::sort(files);
-    for (const fs::path& file : files) text += file.filename().string() + hash_of_file(file);
-  }
+  for (const char* part : {"real", "hdri/dev", "objects"}) text += part + listing_of(plan.data / part);
+  if (fs::exists(plan.data / "hdri" / "dev.csv")) text += hash_of_file(plan.data / "hdri" / "dev.csv");
+  if (asks == Asks::kRivals) text += hash_of_rivals(plan.rivals);
   text += plan.quick ? "quick" : "whole";
-  return hash_of_text(text);
+  return io::sha256_hex(text);
 }
 
 Sections cached_part(const PaperPlan& plan, const std::string& key, const std::string& name,

@@ -9,8 +9,12 @@
 
 namespace faceprobe::cli {
 
-// Hash over the program, its weights, the rivals' and the recipes of the data. Throws Error(kInput).
-std::string key_of(const PaperPlan& plan);
+// Whether a part has rows of rival networks: another rival then makes it new.
+enum class Asks { kOurs, kRivals };
+
+// Hash over the program, its weights, the rivals' where they are asked, the recipes of the faces, and names, sizes and times of all other data.
+// Throws Error(kInput).
+std::string key_of(const PaperPlan& plan, Asks asks);
 
 // The part called `name`, from plan.output/cache or measured now and left there. Throws what `measure` does, and Error(kOutput).
 Sections cached_part(const PaperPlan& plan, const std::string& key, const std::string& name,

@@ -20,10 +20,11 @@ namespace {
 
 constexpr std::array<double, 5> kSubsetEdgesDeg = {0, 12, 25, 50, kYaleMaxAxisDeg};  // Georghiades et al. 2001, section 5
 
-// The last subset has its upper edge too.
+// Each subset has its upper edge: 25 degrees are of the second.
 std::size_t subset_of(double axis_deg) {
+  constexpr double kRounding_deg = 1e-6;
   std::size_t subset = 0;
-  while (subset + 2 < kSubsetEdgesDeg.size() && axis_deg >= kSubsetEdgesDeg[subset + 1]) ++subset;
+  while (subset + 2 < kSubsetEdgesDeg.size() && axis_deg > kSubsetEdgesDeg[subset + 1] + kRounding_deg) ++subset;
   return subset;
 }
 

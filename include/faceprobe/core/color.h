@@ -7,6 +7,7 @@
 #include "faceprobe/core/image.h"
 
 #include <Eigen/Core>
+#include <concepts>
 
 namespace faceprobe {
 
@@ -14,9 +15,27 @@ namespace faceprobe {
 float linear_from_srgb(float encoded);
 float srgb_from_linear(float linear);
 
-// Relative luminance of linear Rec.709 (CIE Y weights of ITU-R BT.709).
-inline float luminance(float r, float g, float b) { return 0.2126F * r + 0.7152F * g + 0.0722F * b; }
-inline float luminance(const float* rgb) { return luminance(rgb[0], rgb[1], rgb[2]); }
+inline constexpr double kRedLuminance = 0.2126;    // the CIE Y weights of ITU-R BT.709, whose sum is 1
+inline constexpr double kGreenLuminance = 0.7152;  // the same
+inline constexpr double kBlueLuminance = 0.0722;   // the same
+// The weights as a column, red first: luminance is its dot product with a linear colour.
+template <class Scalar>
+Eigen::Matrix<Scalar, 3, 1> luminance_weights() {
+  return {static_cast<Scalar>(kRedLuminance), static_cast<Scalar>(kGreenLuminance), static_cast<Scalar>(kBlueLuminance)};
+}
+// The same in single precision; `radiance * kLuminanceWeights` are the luminances of N x 3 colours.
+inline const Eigen::Vector3f kLuminanceWeights = luminance_weights<float>();
+
+// Relative luminance of linear Rec.709, in the precision of the colour.
+template <std::floating_point Scalar>
+Scalar luminance(Scalar r, Scalar g, Scalar b) {
+  return static_cast<Scalar>(kRedLuminance) * r + static_cast<Scalar>(kGreenLuminance) * g +
+         static_cast<Scalar>(kBlueLuminance) * b;
+}
+template <std::floating_point Scalar>
+Scalar luminance(const Scalar* rgb) {
+  return luminance(rgb[0], rgb[1], rgb[2]);
+}
 
 // sRGB bytes of `linear * gain`, clipped at 1: the same size and channels. NaN becomes 0.
 ByteImage encode_srgb(const Image& linear, float gain = 1.0F);

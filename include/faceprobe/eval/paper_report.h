@@ -132,10 +132,13 @@ std::string section_json(const ReportSection& section);
 ReportSection section_from_json(const std::string& text);
 
 // Columns "mean" with its interval, "median" and "n"; one row a method. Rows of `scores` without the metric are left out, those where it is NaN
-// are missing, and a method that has them says how many. `ours`: names of methods.
+// are missing, and a method that has them says how many. Then there is a column more, common_column(): means over the samples that all methods
+// answered, but for those that answered none; only these compare, and only the best of them is bold. `ours`: names of methods.
 ReportTable table_of(const ScoreTable& scores, const std::string& metric, const std::string& title, int decimals = 3,
                      const std::set<std::string>& ours = {}, Better better = Better::kLower);
-// The same rows: mean and interval of each label, one column a label, with the number of values beside the label, or by row where methods differ.
+std::string common_column(std::size_t samples);  // "mean of the 17 all have"
+// The same rows: mean and interval of each label, one column a label, with the number of values beside the label, or by row where methods differ. No value of a label
+// is bold where some method has values missing.
 ReportTable table_by_group(const ScoreTable& scores, const std::string& metric, const std::string& group,
                            const std::string& title, int decimals = 3, const std::set<std::string>& ours = {},
                            Better better = Better::kLower);

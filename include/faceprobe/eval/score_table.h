@@ -53,6 +53,7 @@ class ScoreTable {
   std::vector<double> values(const std::string& metric, const Selection& selection = {}) const;
   // The same without the rows that have none of this metric.
   std::vector<double> known_values(const std::string& metric, const Selection& selection = {}) const;
+  // Of the known values: where a row has none of this metric nothing is missing.
   Summary summary(const std::string& metric, const Selection& selection = {}) const;
   Histogram histogram(const std::string& metric, const Selection& selection, double low, double high, int bins) const;
 

@@ -59,7 +59,7 @@ ByteImage rasterize_regions(const Face& face, const Camera& camera, const Canoni
 
 // The photo resampled into the crop: area average when smaller, bilinear when larger; black outside the photo. As many channels as it has.
 // Here and below: throws Error(kUsage) unless the crop's scale is above 0 and its size not negative.
-Image crop_picture(const Image& linear, const Crop& crop);
+Image crop_picture(const Image& linear, const Crop& crop, int threads = 0);
 // Bit flags resampled into the crop: a bit is set where any covered pixel has it; 0xFF outside the photo.
 ByteImage crop_flags(const ByteImage& flags, const Crop& crop);
 

@@ -22,7 +22,12 @@ std::vector<std::filesystem::path> data_folders();
 
 // The whole file. Throws Error(kInput) when it cannot be read, is no regular file or is longer than max_bytes.
 std::vector<std::byte> read_file(const std::filesystem::path& path, std::int64_t max_bytes);
+// The same as a text.
+std::string read_text(const std::filesystem::path& path, std::int64_t max_bytes);
 // Lower-case hex SHA-256.
 std::string sha256_hex(const std::byte* data, std::size_t size);
+std::string sha256_hex(const std::string& text);
+// Of a whole file. Throws as read_file().
+std::string sha256_of_file(const std::filesystem::path& path, std::int64_t max_bytes);
 
 }  // namespace faceprobe::io

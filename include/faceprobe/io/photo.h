@@ -47,4 +47,7 @@ Photo load_photo(const std::filesystem::path& path, const Limits& limits = {});
 // A picture that is decoded already: sRGB, H x W x 3, upright. Throws std::invalid_argument for another number of channels.
 Photo photo_from_srgb(const ByteImage& srgb);
 
+// What this installation reads, by Photo::format: a build of OpenImageIO may lack one, HEIC mostly.
+std::vector<std::string> photo_formats();
+
 }  // namespace faceprobe::io

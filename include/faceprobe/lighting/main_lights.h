@@ -37,6 +37,9 @@ struct MainLightOptions {
 std::vector<MainLight> main_lights(const Eigen::MatrixX3f& radiance, const SphereGrid& grid,
                                    const MainLightOptions& options = {}, const Eigen::VectorXf& confidence = {});
 
+// Whether no cell is brighter than another by more than rounding makes it, a ten-thousandth: such light comes from nowhere.
+bool is_even(const Eigen::VectorXd& luminance);
+
 // The same light without its first `count` main lights (fewer if there are fewer): what is above the surroundings is taken off their cells, which
 // keep their colours. A lamp of a light's irradiance and this map together give the whole light, so that a renderer can have the lamp sharp.
 // Throws as main_lights().

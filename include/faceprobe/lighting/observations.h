@@ -24,11 +24,11 @@ struct Observations {
   Eigen::MatrixX3f view;       // #patches x 3, unit, from the surface to the camera
   Eigen::MatrixX3f highlight;  // #patches x 3
   Eigen::MatrixX3f shading;    // #patches x 3: diffuse layer divided by albedo; irradiance / pi
-  // #patches x 3, true where the photo clipped the channel: highlight and shading are lower bounds there.
+  // #patches x 3, true where the photo clipped the channel (in pipeline::observe: in over a quarter of the patch): lower bounds there.
   Eigen::Array<bool, Eigen::Dynamic, 3> clipped;
   Eigen::VectorXf roughness;        // #patches, Beckmann m
   Eigen::VectorXf specular_albedo;  // #patches, rho_s
-  Eigen::VectorXf weight;           // #patches, > 0: skin pixels in the patch, less where the geometry is doubtful
+  Eigen::VectorXf weight;           // #patches, 0 or more: less where the geometry is doubtful; 0 = not looked at
   // #patches x kHorizonAzimuths: tangent of the elevation (over the image plane, towards +z) under which light is blocked by
   // the face itself. Empty = nothing blocks.
   Eigen::MatrixXf horizon;

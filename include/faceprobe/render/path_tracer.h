@@ -4,7 +4,7 @@
 //
 // Everything is in the camera's frame (CONVENTIONS.md): the camera at the origin looks along -z.
 //
-//   const PathTracer tracer(model, environment, {.camera = {900, 320, 240, 640, 480}, .ground = Ground{.point = {0, -0.2F, -0.8F}}});
+//   const PathTracer tracer(model, environment, {.view = {900, 320, 240, 640, 480}, .ground = Ground{.point = {0, -0.2F, -0.8F}}});
 //   const Layers layers = tracer.render({.samples = 64});
 //
 // Unidirectional path tracing with multiple importance sampling of map, lamps and surfaces (Veach 1997). Not for animation, subsurface
@@ -83,7 +83,7 @@ struct RenderOptions {
 struct Layers {
   Image object;  // 4 channels: radiance of the model, premultiplied, and its coverage
   Image shadow;  // 3 channels: light that reaches the ground with the model there, over that without; 1 where no ground is seen
-  Image ground;   // 1 channel: coverage of the ground disc, behind the model too counted as not covered
+  Image ground;   // 1 channel: coverage of the ground disc; where the model hides it, not covered
   Image depth;    // 1 channel: metres along -z of the model, mean over its share of the pixel; 0 off it
   Image normal;   // 3 channels: mean normal of the model, camera frame; 0 off it
   Image samples;  // 1 channel: how many were taken

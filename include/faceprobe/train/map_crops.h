@@ -1,5 +1,5 @@
 #pragma once
-// Internal: an environment map as a camera that stands in it would photograph it, and the light that camera stands in: what a network that
+// An environment map as a camera that stands in it would photograph it, and the light that camera stands in: what a network that
 // looks at a scene's background is trained and measured on.
 //
 //   const MapCropOptions view{.yaw_rad = 1.2F};

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 
 namespace faceprobe::eval {
 namespace {
@@ -46,6 +48,36 @@ void tell_counts(ReportTable& table, const std::vector<std::vector<Counts>>& cou
   }
 }
 
+// Means over the samples that all methods answered which answered any: means over different samples do not compare. Nothing where all answered
+// all of them, or there is no such sample.
+struct CommonMeans {
+  std::vector<std::optional<double>> of_method;
+  std::size_t samples = 0;
+};
+std::optional<CommonMeans> common_means(const ScoreTable& scores, const std::string& metric) {
+  const std::vector<std::string> methods = scores.methods();
+  std::map<std::string, std::map<std::string, double>> answers;  // of each method
+  std::set<std::string> samples;
+  for (const ScoreRow& row : scores.rows()) {
+    const auto found = row.metrics.find(metric);
+    if (found == row.metrics.end()) continue;
+    samples.insert(row.sample);
+    if (std::isfinite(found->second)) answers[row.method][row.sample] = found->second;
+  }
+  const std::size_t all = samples.size();
+  for (const auto& [method, known] : answers)
+    std::erase_if(samples, [&known = known](const std::string& sample) { return !known.contains(sample); });
+  if (answers.size() < 2 || samples.empty() || samples.size() == all) return std::nullopt;
+  CommonMeans means{.of_method = {}, .samples = samples.size()};
+  for (const std::string& method : methods) {
+    double sum = 0;
+    for (const std::string& sample : samples) sum += answers.contains(method) ? answers[method][sample] : 0;
+    means.of_method.push_back(answers.contains(method) ? std::optional(sum / static_cast<double>(samples.size()))
+                                                       : std::nullopt);
+  }
+  return means;
+}
+
 ReportPlot values_plot(const ScoreTable& scores, const std::string& metric, const std::string& title,
                        const std::string& unit, const std::set<std::string>& ours, PlotKind kind) {
   ReportPlot plot{.title = title, .x_label = unit, .kind = kind};
@@ -57,6 +89,8 @@ ReportPlot values_plot(const ScoreTable& scores, const std::string& metric, cons
 }
 
 }  // namespace
+
+std::string common_column(std::size_t samples) { return "mean of the " + std::to_string(samples) + " all have"; }
 
 ReportTable table_of(const ScoreTable& scores, const std::string& metric, const std::string& title, int decimals,
                      const std::set<std::string>& ours, Better better) {
@@ -72,6 +106,12 @@ ReportTable table_of(const ScoreTable& scores, const std::string& metric, const 
                           .intervals = {mean_interval(s), std::nullopt, std::nullopt},
                           .ours = ours.contains(method),
                           .note = counts.missing > 0 ? std::to_string(counts.missing) + " missing" : ""});
+  }
+  if (const std::optional<CommonMeans> common = common_means(scores, metric)) {
+    table.columns.push_back(common_column(common->samples));
+    table.decimals.push_back(decimals);
+    table.better = {Better::kNeither, Better::kNeither, Better::kNeither, better};
+    for (std::size_t m = 0; m < table.rows.size(); ++m) table.rows[m].values.push_back(common->of_method[m]);
   }
   return table;
 }
@@ -95,6 +135,11 @@ ReportTable table_by_group(const ScoreTable& scores, const std::string& metric, 
       counts[m].push_back(counts_of(scores, metric, rows));
     }
     table.rows.push_back(std::move(row));
+  }
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    const bool alike = std::all_of(counts.begin(), counts.end(),
+                                   [i](const std::vector<Counts>& c) { return c[i].missing == 0 || c[i].finite == 0; });
+    if (!alike) table.better[i] = Better::kNeither;
   }
   tell_counts(table, counts);
   return table;

@@ -1,6 +1,6 @@
 #pragma once
 // Internal: an SVG element written piece by piece. Coordinates are rounded to a tenth of a unit, so that the same plot is the same text on every
-// machine. Colours come from the page's style sheet by class (html_style.h): s0 .. s5 the series, "grid", "axis", "mark", "dim".
+// machine. Colours come from the page's style sheet by class (html.h): s0 .. s5 the series, "grid", "axis", "mark", "dim".
 //
 //   SvgCanvas canvas(640);
 //   canvas.line(0, 0, 10, 10, "axis");

@@ -1,5 +1,7 @@
 #include "net/torch/highlight_head.h"
 
+#include "faceprobe/core/color.h"
+
 #include <stdexcept>
 
 namespace faceprobe::net {
@@ -23,7 +25,8 @@ torch::Tensor smooth_min(const torch::Tensor& b, const torch::Tensor& light) {
 }  // namespace
 
 torch::Tensor luminance(const torch::Tensor& light) {
-  return 0.2126 * light.narrow(1, 0, 1) + 0.7152 * light.narrow(1, 1, 1) + 0.0722 * light.narrow(1, 2, 1);
+  return kRedLuminance * light.narrow(1, 0, 1) + kGreenLuminance * light.narrow(1, 1, 1) +
+         kBlueLuminance * light.narrow(1, 2, 1);
 }
 
 torch::Tensor prepare_input(const torch::Tensor& linear, const torch::Tensor& clip, const torch::Tensor& mask) {

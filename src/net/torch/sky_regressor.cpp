@@ -32,7 +32,7 @@ ModelInfo checked_sky_info(const io::TensorFile& file, const std::string& name) 
   return info;
 }
 
-double luminance_of(const Eigen::Vector3d& rgb) { return rgb.dot(Eigen::Vector3d(0.2126, 0.7152, 0.0722)); }
+double luminance_of(const Eigen::Vector3d& rgb) { return rgb.dot(luminance_weights<double>()); }
 
 // 1 x 3 x px x px, as the network has it.
 torch::Tensor picture_of(const Image& linear_crop, int px) {

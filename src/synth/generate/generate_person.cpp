@@ -1,3 +1,4 @@
+#include "faceprobe/core/angles.h"
 #include "faceprobe/core/parallel.h"
 #include "faceprobe/synth/compose.h"
 #include "faceprobe/synth/generate.h"
@@ -75,7 +76,8 @@ std::vector<Figure> figures_of(std::span<const Person> people) {
 // What dims a map to the level that was drawn for a room with lamps.
 float map_gain_of(const SampleDraw& draw, const MapLight& map) {
   if (draw.map_level <= 0) return 1.0F;
-  const float irradiance = 3.14159265F * map.mean_radiance.mean();  // of an even sky as bright as the map's mean
+  // Of an even sky as bright as the map's mean.
+  const float irradiance = static_cast<float>(kPi) * map.mean_radiance.mean();
   return irradiance > 0 ? draw.map_level / irradiance : 1.0F;
 }
 

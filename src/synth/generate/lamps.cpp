@@ -1,3 +1,5 @@
+#include "faceprobe/core/angles.h"
+#include "faceprobe/core/color.h"
 #include "synth/generate/group.h"
 
 #include <algorithm>
@@ -17,7 +19,7 @@ Eigen::Vector3f draw_colour(Random& random) {
   const auto share = static_cast<float>(std::pow(random.uniform(), 0.7));
   Eigen::Vector3f colour = (1.0F - share) * warm + share * cool;
   colour.y() *= static_cast<float>(std::exp(random.normal(0, 0.04)));
-  return colour / colour.dot(Eigen::Vector3f(0.2126F, 0.7152F, 0.0722F));
+  return colour / colour.dot(kLuminanceWeights);
 }
 
 bool in_picture(const PinholeCamera& camera, const NearLight& lamp) {
@@ -67,7 +69,7 @@ std::vector<NearLight> draw_lamps(std::span<const Person> people, const PinholeC
   for (std::size_t l = 0; l < lamps.size(); ++l) {
     // A sphere of radiance L gives a surface that faces it the irradiance pi L (radius / distance)^2.
     const float ratio = lamps[l].radius / (lamps[l].position - middle).norm();
-    lamps[l].radiance *= shares[l] / sum / (3.14159265F * ratio * ratio);
+    lamps[l].radiance *= shares[l] / sum / (static_cast<float>(kPi) * ratio * ratio);
   }
   return lamps;
 }

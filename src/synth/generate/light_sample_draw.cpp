@@ -1,14 +1,13 @@
 #include "synth/generate/light_sample_draw.h"
 
 #include "faceprobe/core/angles.h"
+#include "faceprobe/core/color.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace faceprobe::synth {
 namespace {
-
-const Eigen::Vector3f kLuminance(0.2126F, 0.7152F, 0.0722F);
 
 // Cameras expose a middle skin to about a quarter of white, and let a dark one come out darker, by half as many stops.
 constexpr float kUsualFace = 0.26F;
@@ -35,7 +34,7 @@ SampleDraw draw_sample(const Assets& assets, const Recipe& recipe, Random& rando
 void draw_camera(Random& random, int size_px, SampleDraw& draw) {
   draw.white_balance = static_cast<float>(random.between(0.35, 1.0));
   for (int c = 0; c < 3; ++c) draw.cast(c) = static_cast<float>(std::exp(random.normal(0, 0.05)));
-  draw.cast /= draw.cast.dot(kLuminance);
+  draw.cast /= draw.cast.dot(kLuminanceWeights);
   draw.exposure = static_cast<float>(std::exp(random.normal(0, 0.33)));
   draw.background_blur_px = static_cast<float>(random.between(0.002, 0.02) * size_px);
   draw.sensor = draw_sensor({}, random);
@@ -44,13 +43,13 @@ void draw_camera(Random& random, int size_px, SampleDraw& draw) {
 Eigen::Vector3f exposure_gain(const SampleDraw& draw, const Eigen::Vector3f& face, const Eigen::Vector3f& light,
                               const Eigen::Vector3f& tone) {
   Eigen::Vector3f gain = draw.cast;
-  const float light_luminance = light.dot(kLuminance);
+  const float light_luminance = light.dot(kLuminanceWeights);
   if (light_luminance > 0) {
     for (int c = 0; c < 3; ++c) gain(c) *= std::pow(std::max(0.02F, light(c) / light_luminance), -draw.white_balance);
   }
-  const float seen = gain.cwiseProduct(face).dot(kLuminance);
+  const float seen = gain.cwiseProduct(face).dot(kLuminanceWeights);
   if (!(seen > 0)) return Eigen::Vector3f::Ones();
-  const float wanted = kUsualFace * std::sqrt(tone.dot(kLuminance) / kUsualTone) * draw.exposure;
+  const float wanted = kUsualFace * std::sqrt(tone.dot(kLuminanceWeights) / kUsualTone) * draw.exposure;
   return gain * (std::clamp(wanted, kFaceMin, kFaceMax) / seen);
 }
 

@@ -1,6 +1,7 @@
 #include "synth/head/procedural_shape.h"
 
 #include "faceprobe/core/angles.h"
+#include "faceprobe/core/smooth_step.h"
 
 #include <algorithm>
 #include <cassert>
@@ -17,11 +18,6 @@ using mannequin::kMouthY;
 using Vector = Eigen::Vector3f;
 
 float square(float x) { return x * x; }
-// 0 below `low`, 1 above `high`.
-float step(float low, float high, float x) {
-  const float t = std::clamp((x - low) / (high - low), 0.0F, 1.0F);
-  return t * t * (3 - 2 * t);
-}
 // A bump of height 1 and the given radii on the face's plane.
 float bump(float x, float y, float rx, float ry) { return std::exp(-square(x / rx) - square(y / ry)); }
 
@@ -96,7 +92,7 @@ float column_azimuth(int column) {
 
 // The plain head at a height, seen from its axis.
 Vector plain_point(const MannequinLook& look, float y, float azimuth) {
-  const Vector axis(0, y, kAxisZ - 0.024F * step(-0.095F, -0.135F, y));
+  const Vector axis(0, y, kAxisZ - 0.024F * smooth_step(-0.095F, -0.135F, y));
   const Vector outwards(std::sin(azimuth), 0, std::cos(azimuth));
   constexpr float kStep = 0.004F;
   float outside = 0.132F;
@@ -116,8 +112,8 @@ float nose_height(const MannequinLook& look, float x, float y) {
   const float along = (0.012F - y) / (0.012F - kNoseTipY);  // 0 at the bridge, 1 at the tip
   float ridge = 0;
   if (along > 0 && along <= 1) ridge = 0.002F + 0.019F * std::pow(along, 1.3F);
-  if (along > 1) ridge = 0.021F * (1 - step(kNoseTipY + 0.001F, kNoseBaseY - 0.003F, y));
-  ridge *= step(-0.15F, 0.15F, along);
+  if (along > 1) ridge = 0.021F * (1 - smooth_step(kNoseTipY + 0.001F, kNoseBaseY - 0.003F, y));
+  ridge *= smooth_step(-0.15F, 0.15F, along);
   const float half_width = (0.0065F + 0.005F * std::clamp(along, 0.0F, 1.0F)) * wide;
   float height = length * ridge * bump(x, 0, half_width, 1);
   for (const float side : {-1.0F, 1.0F}) {
@@ -144,7 +140,7 @@ float relief(const MannequinLook& look, float x, float y) {
   float z = nose_height(look, x, y) + lips_height(look, x, y);
   z += (0.0075F + 0.0015F * look.chin) * bump(x, y + 0.111F, 0.017F, 0.012F);
   const float ridge_y = y - 0.021F + 3.0F * square(std::abs(x) - 0.025F);
-  z += (0.0042F + 0.0015F * look.brow_ridge) * bump(0, ridge_y, 1, 0.0085F) * step(0.062F, 0.045F, std::abs(x));
+  z += (0.0042F + 0.0015F * look.brow_ridge) * bump(0, ridge_y, 1, 0.0085F) * smooth_step(0.062F, 0.045F, std::abs(x));
   for (const float side : {-1.0F, 1.0F}) {
     z -= 0.0065F * bump(x - side * 0.030F, y - 0.001F, 0.019F, 0.013F);  // socket
     z += 0.0045F * bump(x - side * 0.047F, y + 0.030F, 0.020F, 0.017F);  // cheekbone
@@ -163,7 +159,7 @@ Vector lay_lids(const MannequinLook& look, const Vector& p) {
   const bool left = p.x() > 0;
   const float dx = std::abs(p.x()) - kEyeX;
   const float distance = std::hypot(dx, p.y());
-  const float near_eye = 1 - step(0.80F * kEyeRadius, 1.55F * kEyeRadius, distance);
+  const float near_eye = 1 - smooth_step(0.80F * kEyeRadius, 1.55F * kEyeRadius, distance);
   if (near_eye <= 0 || p.z() < -0.03F) return p;
   const float blink = look.blink[left ? 0 : 1];
   const float arch = 1 - square(dx / kEyeHalfWidth);
@@ -181,15 +177,16 @@ Vector raise_ears(const Vector& p) {
   const float y = p.y() + 0.016F;
   const float z = p.z() + 0.083F - 0.15F * y;
   const float shell = bump(z, y, 0.016F, 0.028F);
-  const float rim = shell * step(0.004F, -0.010F, z) - 0.35F * bump(z + 0.002F, y - 0.004F, 0.007F, 0.012F);
+  const float rim = shell * smooth_step(0.004F, -0.010F, z) - 0.35F * bump(z + 0.002F, y - 0.004F, 0.007F, 0.012F);
   return p + Vector(side * (0.004F * shell + 0.021F * std::max(0.0F, rim)), 0, -0.006F * shell);
 }
 
 // Face length, jaw, smile, brows: the finished surface moved.
 Vector move(const MannequinLook& look, const Vector& p) {
   Vector q = p;
-  const float front = step(-0.075F, -0.030F, p.z());
-  if (p.y() < 0) q.y() *= 1 + 0.035F * look.face_length * std::min(1.0F, -p.y() / 0.03F) * step(-0.24F, -0.12F, p.y());
+  const float front = smooth_step(-0.075F, -0.030F, p.z());
+  if (p.y() < 0)
+    q.y() *= 1 + 0.035F * look.face_length * std::min(1.0F, -p.y() / 0.03F) * smooth_step(-0.24F, -0.12F, p.y());
   for (const int side : {0, 1}) {
     const float sign = side == 0 ? 1.0F : -1.0F;
     const float smile = look.smile[static_cast<std::size_t>(side)];
@@ -209,10 +206,10 @@ Vector open_jaw(const MannequinLook& look, const Vector& p, float ring_y, bool b
   const float across = 1 - square(p.x() / kMouthHalfWidth);
   const float gap = kLipGap * 0.9F;
   // Above the corners' height nothing follows the jaw; outside the mouth the cheeks stretch gently.
-  const float soft = step(-0.066F, -0.098F, ring_y);
+  const float soft = smooth_step(-0.066F, -0.098F, ring_y);
   const float hard = ring_y < kMouthY - gap ? 1.0F : ring_y > kMouthY + gap ? 0.0F : 0.5F;
   const float in_mouth = std::sqrt(std::max(0.0F, across));
-  const float front = step(-0.11F, -0.07F, p.z()) * step(-0.150F, -0.120F, ring_y);
+  const float front = smooth_step(-0.11F, -0.07F, p.z()) * smooth_step(-0.150F, -0.120F, ring_y);
   const float share = front * (in_mouth * hard + (1 - in_mouth) * soft) * look.jaw_open;
   Vector q = p;
   if (share > 0) {
@@ -228,7 +225,7 @@ Vector open_jaw(const MannequinLook& look, const Vector& p, float ring_y, bool b
 
 Vector skin_point(const MannequinLook& look, const Vector& plain, float ring_y) {
   Vector p = plain;
-  const float front = step(-0.065F, -0.030F, p.z());
+  const float front = smooth_step(-0.065F, -0.030F, p.z());
   if (front > 0) p.z() += front * relief(look, p.x(), p.y());
   p = lay_lids(look, raise_ears(p));
   p = open_jaw(look, p, ring_y, std::abs(ring_y - kMouthY) < 1e-6F && p.z() > -0.03F);
@@ -241,7 +238,7 @@ Vector eye_point(int side, int ring, int column) {
   const auto polar =
       static_cast<float>(kPi) * (1.0F - static_cast<float>(ring) / static_cast<float>(kEyeRings));  // 0 = front
   const auto turn = static_cast<float>(2.0 * kPi * column / kEyeColumns);
-  const float radius = kEyeRadius * (1 + 0.06F * (1 - step(0.25F, 0.50F, polar)));
+  const float radius = kEyeRadius * (1 + 0.06F * (1 - smooth_step(0.25F, 0.50F, polar)));
   return Vector(side == 0 ? kEyeX : -kEyeX, 0, kEyeZ) +
          radius * Vector(std::sin(polar) * std::cos(turn), std::sin(polar) * std::sin(turn), std::cos(polar));
 }

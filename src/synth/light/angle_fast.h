@@ -2,6 +2,8 @@
 // Internal: atan2 for loops that run eight at a time. Abramowitz & Stegun 1964, 4.4.47; off by at most 1.2e-5 radians, which is a
 // thousandth of a texel of a map 512 wide.
 
+#include "faceprobe/core/angles.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -16,8 +18,8 @@ inline float fast_atan2(float y, float x) {
   const float r = small / large;
   const float r2 = r * r;
   float angle = r * (0.9998660F + r2 * (-0.3302995F + r2 * (0.1801410F + r2 * (-0.0851330F + r2 * 0.0208351F))));
-  angle = ay > ax ? 1.57079633F - angle : angle;
-  angle = x < 0.0F ? 3.14159265F - angle : angle;
+  angle = ay > ax ? static_cast<float>(kPi / 2) - angle : angle;
+  angle = x < 0.0F ? static_cast<float>(kPi) - angle : angle;
   return std::copysign(angle, y);
 }
 

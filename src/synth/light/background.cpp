@@ -1,3 +1,4 @@
+#include "faceprobe/core/angles.h"
 #include "faceprobe/synth/map_light.h"
 #include "synth/light/angle_fast.h"
 #include "synth/light/blur.h"
@@ -73,8 +74,8 @@ void draw(const EnvMap& map, const PinholeCamera& camera, const Eigen::Matrix3f&
   std::vector<float> us(columns), vs(columns);
   const auto width = static_cast<float>(map.width());
   const auto height = static_cast<float>(map.height());
-  const float per_turn = width / 6.28318531F;
-  const float per_half = height / 3.14159265F;
+  const float per_turn = width / static_cast<float>(2 * kPi);
+  const float per_half = height / static_cast<float>(kPi);
   // Rays need no unit length here, so along a row they are a straight line.
   const Eigen::Vector3f right = map_from_camera.col(0) * (lattice.step / camera.focal_px);
   for (int j = 0; j < lattice.rows; ++j) {

@@ -2,12 +2,14 @@
 
 #include "faceprobe/core/angles.h"
 #include "faceprobe/core/color.h"
+#include "faceprobe/core/quantile.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace faceprobe::synth {
@@ -141,13 +143,11 @@ class Finder {
 
   Eigen::Vector3f median(const std::vector<Texel>& texels) const {
     Eigen::Vector3f result;
-    std::vector<float> values(texels.size());
     for (int c = 0; c < 3; ++c) {
+      std::vector<float> values(texels.size());
       std::transform(texels.begin(), texels.end(), values.begin(),
                      [&](const Texel& t) { return rest_.radiance()(t.x, t.y, c); });
-      const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-      std::nth_element(values.begin(), middle, values.end());
-      result(c) = *middle;
+      result(c) = upper_median_of(std::move(values));
     }
     return result;
   }

@@ -1,3 +1,4 @@
+#include "faceprobe/core/color.h"
 #include "faceprobe/synth/sensor.h"
 #include "synth/light/blur.h"
 #include "synth/sensor/jpeg.h"
@@ -68,8 +69,7 @@ Planes without_colour(const Planes& light) {
   Planes grey(light.width, light.height, 1);
   const auto recorded = [](float value) { return std::min(1.0F, std::max(0.0F, value)); };
   for (std::size_t i = 0; i < light.size; ++i) {
-    grey.values[i] = 0.2126F * recorded(light.plane(0)[i]) + 0.7152F * recorded(light.plane(1)[i]) +
-                     0.0722F * recorded(light.plane(2)[i]);
+    grey.values[i] = luminance(recorded(light.plane(0)[i]), recorded(light.plane(1)[i]), recorded(light.plane(2)[i]));
   }
   return grey;
 }

@@ -1,10 +1,12 @@
 #include "faceprobe/synth/contact_sheet.h"
 
 #include "faceprobe/core/color.h"
+#include "faceprobe/core/quantile.h"
 #include "faceprobe/core/region.h"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace faceprobe::synth {
@@ -36,9 +38,8 @@ ByteImage encoded(const Image& linear, float scale) {
 // Puts the 98 % quantile at .8: one glint must not turn the rest black.
 float fitting_scale(const Image& linear) {
   std::vector<float> values(linear.values().begin(), linear.values().end());
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(0.98 * static_cast<double>(values.size() - 1));
-  std::ranges::nth_element(values, at);
-  return *at > 0 ? 0.8F / *at : 1.0F;
+  const float bright = quantile_of(std::move(values), 0.98);
+  return bright > 0 ? 0.8F / bright : 1.0F;
 }
 
 template <class Colour>

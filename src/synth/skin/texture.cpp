@@ -2,10 +2,12 @@
 
 #include "faceprobe/core/color.h"
 #include "faceprobe/core/error.h"
+#include "faceprobe/core/quantile.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace faceprobe::synth {
 namespace {
@@ -65,12 +67,7 @@ Eigen::Vector3f mean_skin(const Image& linear) {
     }
   }
   Eigen::Vector3f mean;
-  for (int c = 0; c < 3; ++c) {
-    auto& v = values[static_cast<std::size_t>(c)];
-    const auto middle = v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2);
-    std::nth_element(v.begin(), middle, v.end());
-    mean[c] = *middle;
-  }
+  for (int c = 0; c < 3; ++c) mean[c] = upper_median_of(std::move(values[static_cast<std::size_t>(c)]));
   for (int round = 0; round < 8; ++round) {
     const Eigen::Vector3f log_mean = log_of(mean.data());
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();

@@ -1,5 +1,6 @@
 #include "synth/generate/group.h"
 
+#include "faceprobe/core/color.h"
 #include "synth/generate/small_world.h"
 
 #include <gtest/gtest.h>
@@ -56,7 +57,7 @@ TEST(Group, LampsAreUnseenAndGiveTheGroupTheIrradianceOfOne) {
         const Eigen::Vector2f pixel = view.camera.project(at);
         EXPECT_FALSE((pixel.array() > 0).all() && (pixel.array() < 192).all());
       }
-      const float luminance = lamp.radiance.dot(Eigen::Vector3f(0.2126F, 0.7152F, 0.0722F));
+      const float luminance = lamp.radiance.dot(kLuminanceWeights);
       const double distance = (lamp.position - middle).cast<double>().norm();
       irradiance += 3.14159265 * luminance * lamp.radius * lamp.radius / (distance * distance);
     }
