@@ -1,11 +1,14 @@
-"""The report's spherical harmonics in three.js's LightProbe, as docs/recipes.md says: copied one by one. Needs numpy, else exit 77.
+"""The report's spherical harmonics in three.js, Unity and Unreal, as docs/recipes.md says. Needs numpy, else exit 77.
 
 Ours are orthonormal coefficients of radiance. three.js is written here from its shader's constants (shGetIrradianceAt) and its
-look-up of lat-long pictures (equirectUv). Random light, against sums over the sphere.
+look-up of lat-long pictures (equirectUv); Unity from the polynomials that its coefficients are of; Unreal from its basis. What is done to
+our coefficients for the last two is read from the page. Random light, against sums over the sphere.
 """
 
 import math
+import re
 import sys
+from pathlib import Path
 
 try:
     import numpy as np
@@ -66,6 +69,43 @@ def three_look_up(picture, directions):
     return picture[row, column]
 
 
+def unity_shading(probe, normals):
+    """Unity: what SphericalHarmonicsL2 of 9 x 3 says in its own axes; irradiance over pi."""
+    x, y, z = normals.T
+    return np.stack([1 + 0 * x, y, z, x, x * y, y * z, 3 * z * z - 1, x * z, x * x - y * y], -1) @ probe
+
+
+def unreal_irradiance(vector, normals):
+    """Unreal: FSHVector's basis, which has the Condon-Shortley sign, in its own axes, times the cosine's lobe."""
+    x, y, z = normals.T
+    basis = np.stack([0.282095 + 0 * x, -0.488603 * y, 0.488603 * z, -0.488603 * x, 1.092548 * x * y, -1.092548 * y * z,
+                      0.315392 * (3 * z * z - 1), -1.092548 * x * z, 0.546274 * (x * x - y * y)], -1)
+    return (basis * np.repeat([math.pi, 2 * math.pi / 3, math.pi / 4], [1, 3, 5])) @ vector
+
+
+class Components:
+    """x, y and z of many vectors, as shaders write them."""
+    def __init__(self, x, y, z):
+        self.x, self.y, self.z = x, y, z
+
+
+def of_page(pattern):
+    found = re.search(pattern, PAGE, re.S)
+    if not found:
+        sys.exit(f"docs/recipes.md has nothing like {pattern}")
+    return found.group(1)
+
+
+def material_shading(code, report, normals):
+    """The lines of Unreal's Custom node, which are Python as well."""
+    names = {f"C{i}": row for i, row in enumerate(report)}
+    names["N"] = Components(*(column[:, None] for column in normals.T))
+    names["float3"] = Components
+    first, rest = code.split(";", 1)
+    names["n"] = eval(first.split("=", 1)[1].strip(), names)
+    return eval("(" + rest.strip().removeprefix("return").rstrip("; \n") + ")", names)
+
+
 def direct_irradiance(radiance, directions, solid_angles, normals):
     return (np.maximum(normals @ directions.T, 0) * solid_angles) @ radiance
 
@@ -76,6 +116,7 @@ def check(name, found, wanted, limit):
     return error < limit
 
 
+PAGE = (Path(__file__).resolve().parents[2] / "docs" / "recipes.md").read_text(encoding="utf-8")
 random = np.random.default_rng(7)
 directions, solid_angles = openexr_texels(256)
 ours = our_basis(directions)
@@ -95,6 +136,19 @@ picture[40:60, 50:70] += (200, 20, 20)
 report = ours.T @ (picture.reshape(-1, 3) * solid_angles[:, None])
 passed.append(check("any light, its part of order 2", three_irradiance(report, normals),
                     direct_irradiance(ours @ report, directions, solid_angles, normals), 0.001))
+
+# Unity: +x, +y, +z of ours are its x, y, -z. The page's constants have six digits.
+in_unity = normals * [1, 1, -1]
+wanted = direct_irradiance(ours @ report, directions, solid_angles, normals)
+factors = np.array([float(number.strip(" f")) for number in of_page(r"Factor = \{([^}]*)\}").split(",")])
+passed.append(check("Unity, the page's factors", unity_shading(factors[:, None] * report, in_unity), wanted / math.pi, 0.001))
+
+# Unreal: they are its y, z, -x.
+in_unreal = np.stack([-normals[:, 2], normals[:, 0], normals[:, 1]], -1)
+code = of_page(r"```hlsl\n(.*?)```")
+passed.append(check("Unreal, the page's material", material_shading(code, report, in_unreal), wanted / math.pi, 0.001))
+vector = np.stack(eval(of_page(r"`V` is\s+```\n\s*([^`]*?)\s*```"), {f"c{i}": row for i, row in enumerate(report)}))
+passed.append(check("Unreal, the page's vector", unreal_irradiance(vector, in_unreal), wanted, 0.001))
 
 # `--orient three` rolls by a quarter to the right; three.js then finds in the file what the report says.
 rolled = np.roll(picture, picture.shape[1] // 4, axis=1)
