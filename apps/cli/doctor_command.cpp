@@ -37,7 +37,7 @@ std::string page() {
 #endif
 
 int run(bool json) {
-  std::vector<pipeline::Check> checks = {{"version", true, kVersion + std::string(", with ") + parts()}};
+  std::vector<pipeline::Check> checks = {{"version", true, std::string(kVersion) + ", with " + parts()}};
 #ifdef FACEPROBE_HAS_SERVE
   checks.push_back({"page", true, page()});
 #endif

@@ -14,19 +14,23 @@
 #include <chrono>
 #include <iterator>
 #include <memory>
+#include <span>
 
 namespace faceprobe::cli {
 
 namespace {
 
+constexpr const char* kHighlightRivals[] = {"mscr.safetensors", "finetuned.safetensors", "shi.safetensors"};
+constexpr const char* kLightRivals[] = {"gardner.safetensors", "legendre.safetensors", "sky.safetensors"};
+
 struct Part {
   const char* name;
   Sections (*measure)(const PaperPlan&);
-  Asks asks = Asks::kOurs;
+  std::span<const char* const> rivals = {};  // files of weights that it asks for
 };
-constexpr std::array kParts = {Part{"highlights", highlight_sections, Asks::kRivals},
+constexpr std::array kParts = {Part{"highlights", highlight_sections, kHighlightRivals},
                                Part{"objects", object_sections},
-                               Part{"relighting", relight_sections, Asks::kRivals},
+                               Part{"relighting", relight_sections, kLightRivals},
                                Part{"directions", direction_sections},
                                Part{"triangulation", room_sections},
                                Part{"ablations", ablation_sections}};
@@ -86,7 +90,7 @@ int run(PaperPlan plan) {
   eval::PaperReport report{.title = "Light from faces: the evaluation", .made_with = made_with(plan)};
   for (std::size_t i = 0; i < kParts.size(); ++i) {
     plan.progress = PartProgress(fmt::format("part {} of {}, {}", i + 1, kParts.size(), kParts[i].name));
-    Sections sections = cached_part(plan, key_of(plan, kParts[i].asks), kParts[i].name, kParts[i].measure);
+    Sections sections = cached_part(plan, key_of(plan, kParts[i].rivals), kParts[i].name, kParts[i].measure);
     std::move(sections.begin(), sections.end(), std::back_inserter(report.sections));
     spdlog::info("part {} of {}, {}: done", i + 1, kParts.size(), kParts[i].name);
   }

@@ -6,7 +6,6 @@
 #include "faceprobe/render/shapes.h"
 #include "serve/archive.h"
 #include "serve/describe.h"
-#include "serve/events.h"
 #include "serve/requests.h"
 
 #include <algorithm>
@@ -134,16 +133,16 @@ const Record& done(const Record& record) {
 // What estimates and insertions have in common. `record_of`: request to shared pointer; `remove`: by id.
 template <class RecordOf, class Remove>
 void add_job_routes(httplib::Server& http, const std::string& one, const RecordOf& record_of, const Remove& remove,
-                    const std::atomic<bool>& closing) {
+                    EventStreams& events) {
   http.Get(one,
            [record_of](const Request& request, Response& response) { answer(response, json_of(*record_of(request))); });
   http.Delete(one, [remove](const Request& request, Response& response) {
     remove(request.matches[1]);
     response.status = 204;
   });
-  http.Get(one + "/events", [record_of, &closing](const Request& request, Response& response) {
+  http.Get(one + "/events", [record_of, &events](const Request& request, Response& response) {
     const auto record = record_of(request);
-    stream_events(response, record, record->job, closing);
+    events.stream(response, record, record->job);
   });
   http.Get(one + "/files/(.+)", [record_of](const Request& request, Response& response) {
     const auto record = record_of(request);
@@ -151,8 +150,7 @@ void add_job_routes(httplib::Server& http, const std::string& one, const RecordO
   });
 }
 
-void add_estimate_routes(httplib::Server& http, Studio& studio, const ServerOptions& options,
-                         const std::atomic<bool>& closing) {
+void add_estimate_routes(httplib::Server& http, Studio& studio, const ServerOptions& options, EventStreams& events) {
   const std::string all = std::string(kRoot) + "/estimates";
   const std::string one = all + "/" + kId;
   const auto record_of = [&studio](const Request& request) { return studio.records().estimate(request.matches[1]); };
@@ -185,7 +183,7 @@ void add_estimate_routes(httplib::Server& http, Studio& studio, const ServerOpti
     accept(response, "/estimates/" + record->id, estimate_json(*record));
   });
   add_job_routes(
-      http, one, record_of, [&studio](const std::string& id) { studio.records().remove_estimate(id); }, closing);
+      http, one, record_of, [&studio](const std::string& id) { studio.records().remove_estimate(id); }, events);
   http.Get(one + "/photo", [record_of](const Request& request, Response& response) {
     const auto record = record_of(request);
     if (!fs::is_regular_file(record->shown_photo()))
@@ -206,11 +204,11 @@ void add_estimate_routes(httplib::Server& http, Studio& studio, const ServerOpti
       });
 }
 
-void add_insertion_routes(httplib::Server& http, Studio& studio, const std::atomic<bool>& closing) {
+void add_insertion_routes(httplib::Server& http, Studio& studio, EventStreams& events) {
   const std::string one = std::string(kRoot) + "/insertions/" + kId;
   const auto record_of = [&studio](const Request& request) { return studio.records().insertion(request.matches[1]); };
   add_job_routes(
-      http, one, record_of, [&studio](const std::string& id) { studio.records().remove_insertion(id); }, closing);
+      http, one, record_of, [&studio](const std::string& id) { studio.records().remove_insertion(id); }, events);
 }
 
 }  // namespace
@@ -230,7 +228,7 @@ Refusal too_large(std::int64_t most_bytes) {
           "The photo is larger than the " + std::to_string(most_bytes >> 20) + " MB that this server takes."};
 }
 
-void add_routes(httplib::Server& http, Studio& studio, const ServerOptions& options, const std::atomic<bool>& closing) {
+void add_routes(httplib::Server& http, Studio& studio, const ServerOptions& options, EventStreams& events) {
   const std::string root = kRoot;
   http.Get(root + "/info", [&options](const Request&, Response& response) { answer(response, info_json(options)); });
   http.Get(root + "/samples/([a-z_]+)", [&options](const Request& request, Response& response) {
@@ -244,8 +242,8 @@ void add_routes(httplib::Server& http, Studio& studio, const ServerOptions& opti
       throw Refusal(FailureKind::kNotFound, "There is no object '" + name + "'.");
     answer(response, object_json(name, render::shape(name)));
   });
-  add_estimate_routes(http, studio, options, closing);
-  add_insertion_routes(http, studio, closing);
+  add_estimate_routes(http, studio, options, events);
+  add_insertion_routes(http, studio, events);
 }
 
 }  // namespace faceprobe::serve

@@ -1,16 +1,15 @@
 #pragma once
 // The routes of openapi.json, tied to a studio.
 
+#include "serve/events.h"
 #include "serve/server.h"
 
 #include <httplib.h>
 
-#include <atomic>
-
 namespace faceprobe::serve {
 
-// Event streams end when `closing` is set.
-void add_routes(httplib::Server& http, Studio& studio, const ServerOptions& options, const std::atomic<bool>& closing);
+// All that is given must outlive the server.
+void add_routes(httplib::Server& http, Studio& studio, const ServerOptions& options, EventStreams& events);
 
 void answer(httplib::Response& response, const Json& json, int status = 200);
 void answer(httplib::Response& response, const Failure& failure);

@@ -45,7 +45,9 @@ Json vector_json(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }
 
 Json face_json(const pipeline::FaceEstimate& face, const std::string& folder) {
   const face::Box& box = face.face.box;
+  const face::Crop& crop = face.geometry.crop;
   return {{"box_px", {box.x, box.y, box.width, box.height}},
+          {"crop_px", {crop.x_px, crop.y_px, crop.width / crop.scale, crop.height / crop.scale}},
           {"mesh_px", row_by_row(face.face.landmarks_px.leftCols<2>())},
           {"folder", folder}};
 }

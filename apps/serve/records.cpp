@@ -57,6 +57,19 @@ std::string new_id() {
   return id;
 }
 
+void forget_layers(pipeline::Estimate& estimate) {
+  for (pipeline::FaceEstimate& face : estimate.faces) {
+    for (Image* picture : {&face.geometry.normal_cam, &face.geometry.position_cam_m, &face.geometry.view_cam,
+                           &face.geometry.normal_error_rad, &face.picture, &face.layers.highlight, &face.layers.diffuse,
+                           &face.albedo, &face.shading})
+      *picture = {};
+    face.clipped = {};
+    face.observations = {};
+    face.confidence = {};
+  }
+  if (estimate.joint) estimate.joint->confidence = {};
+}
+
 std::vector<ServedFile> files_of(const std::filesystem::path& folder) {
   std::vector<ServedFile> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {

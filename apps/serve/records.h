@@ -48,9 +48,10 @@ struct EstimateRecord {
   const std::string name;
   const OwnedFolder home;
   Job job;
+  mutable std::shared_ptr<const io::Photo> decoded;  // last_photo.h's own
   // From here on results.
-  pipeline::Estimate estimate;
-  Json described;  // what a client is told of it
+  pipeline::Estimate estimate;  // of a record that is done without what forget_layers() takes
+  Json described;               // what a client is told of it
   std::vector<ServedFile> files;
 };
 
@@ -68,6 +69,9 @@ struct InsertionRecord {
 
 // 16 hexadecimal digits that nobody guesses.
 std::string new_id();
+// What of an estimate only its files and its description are made of, and which is most of it: pictures of crops, observations and maps of
+// confidence. What things are drawn into the photo by stays (pipeline/insertion.h): camera, poses, regions, lights and their maps.
+void forget_layers(pipeline::Estimate& estimate);
 // All files of a folder, by name.
 std::vector<ServedFile> files_of(const std::filesystem::path& folder);
 

@@ -6,14 +6,17 @@
 
 #include <sys/socket.h>
 #include <atomic>
+#include <cerrno>
 #include <chrono>
+#include <system_error>
 #include <thread>
 #include <utility>
 
 namespace faceprobe::serve {
 namespace {
 
-constexpr std::size_t kThreads = 24;  // each listener of events holds one
+constexpr int kThreads = 24;
+constexpr int kMostListeners = kThreads / 2;  // each holds a thread; the others are for the page and the API
 constexpr const char* kHost = "127.0.0.1";
 constexpr std::size_t kLongestPath = 1000;  // patterns are matched by recursion, some hundred bytes of stack a character
 constexpr const char* kNoPage =
@@ -36,6 +39,15 @@ void explain(const httplib::Request& request, httplib::Response& response, std::
   }
 }
 
+Caller caller_of(const httplib::Request& request) {
+  return {.host = request.get_header_value("Host"),
+          .origin = request.get_header_value("Origin"),
+          .fetch_site = request.get_header_value("Sec-Fetch-Site"),
+          .fetch_mode = request.get_header_value("Sec-Fetch-Mode"),
+          .fetch_dest = request.get_header_value("Sec-Fetch-Dest"),
+          .gets_front_page = request.method == "GET" && request.path == "/"};
+}
+
 // Of a request whose end only its sender knows. The HTTP library limits what says its length; chunks and what it would unpack it does not.
 bool is_endless(const httplib::Request& request) {
   if (request.has_header("Transfer-Encoding") || request.has_header("Content-Encoding")) return true;
@@ -48,18 +60,33 @@ bool is_endless(const httplib::Request& request) {
 std::string ServerOptions::validate() const {
   if (port < 0 || port > 65535) return "The port must be from 0 to 65535, found " + std::to_string(port) + ".";
   if (max_upload_bytes < 1) return "An upload must be allowed a byte at least.";
+  if (most_listeners < 1 || most_listeners > kMostListeners) {
+    return "The listeners of events may be 1 to " + std::to_string(kMostListeners) + " at a time, found " +
+           std::to_string(most_listeners) + ".";
+  }
+  if (longest_stream.count() < 1) return "A stream of events must be allowed a millisecond at least.";
   if (studio.history_limit < 1) return "The history must hold one estimate at least.";
   return studio.estimate.validate();
 }
 
+std::string port_fault(int port, int error) {
+  const std::string start = "Port " + std::to_string(port);
+  const std::string advice = "; name another with --port, or 0 for any.";
+  if (error == EADDRINUSE) return start + " is taken, perhaps by another faceprobe" + advice;
+  const std::string reason = error == 0 ? "" : " (" + std::generic_category().message(error) + ")";
+  return start + " could not be opened" + reason + advice;
+}
+
 struct Server::Impl {
-  explicit Impl(ServerOptions wanted) : options(std::move(wanted)), studio(options.studio) {
+  explicit Impl(ServerOptions wanted)
+      : options(std::move(wanted)), studio(options.studio),
+        events(options.most_listeners, options.longest_stream, closing) {
     // Without this two servers share a port, and each gets a part of the requests.
     http.set_socket_options([](socket_t socket) {
       const int yes = 1;
       ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
     });
-    http.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
+    http.new_task_queue = [] { return new httplib::ThreadPool(static_cast<std::size_t>(kThreads)); };
     http.set_payload_max_length(static_cast<std::size_t>(options.max_upload_bytes));
     http.set_tcp_nodelay(true);
     // One request a connection: what is left of one that was refused before it was read would be taken for the next, and a stranger's page
@@ -75,8 +102,7 @@ struct Server::Impl {
       // Packing what goes to the same machine takes longer than sending it, by brotli seconds, and the HTTP library offers no other way to
       // leave it; the request itself is not const.
       const_cast<httplib::Request&>(request).headers.erase("Accept-Encoding");
-      const std::string fault =
-          fault_of_caller(request.get_header_value("Host"), request.get_header_value("Origin"), port);
+      const std::string fault = fault_of_caller(caller_of(request), port);
       if (!fault.empty()) {
         refuse(response, FailureKind::kForbidden, fault);
       } else if (is_endless(request)) {
@@ -94,15 +120,12 @@ struct Server::Impl {
     http.set_error_handler([this](const httplib::Request& request, httplib::Response& response) {
       explain(request, response, options.max_upload_bytes);
     });
-    add_routes(http, studio, options, closing);
+    add_routes(http, studio, options, events);
     add_page();
+    errno = 0;  // the HTTP library only says whether it worked; what the system said is still there
     port =
         options.port == 0 ? http.bind_to_any_port(kHost) : (http.bind_to_port(kHost, options.port) ? options.port : -1);
-    if (port <= 0) {
-      throw Error(ExitCode::kUsage,
-                  "Port " + std::to_string(options.port) +
-                      " is taken, perhaps by another faceprobe; name another with --port, or 0 for any.");
-    }
+    if (port <= 0) throw Error(ExitCode::kUsage, port_fault(options.port, errno));
   }
 
   void add_page() {
@@ -121,6 +144,7 @@ struct Server::Impl {
   std::atomic<bool> closing = false, begun = false, ended = false;
   int port = -1;
   Studio studio;
+  EventStreams events;
   httplib::Server http;  // last: it answers from the others
 };
 

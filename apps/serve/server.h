@@ -9,6 +9,7 @@
 
 #include "serve/studio.h"
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -22,10 +23,16 @@ struct ServerOptions {
   std::filesystem::path page;     // folder with index.html; empty = the API alone
   std::filesystem::path samples;  // folder with sample photos; empty = none
   std::int64_t max_upload_bytes = 64LL << 20;
+  // Of a job's events: how many may listen at a time, and how long until a listener has to ask again.
+  int most_listeners = 12;
+  std::chrono::milliseconds longest_stream = std::chrono::seconds(30);
 
   // Empty when usable, else a sentence that says which value is wrong.
   std::string validate() const;
 };
+
+// Why a port could not be opened, by errno's number (0: nobody knows), and what to do.
+std::string port_fault(int port, int error);
 
 class Server {
  public:

@@ -1,5 +1,8 @@
 #pragma once
 // The work behind the server: photos to light, and things into photos, one after another on one thread.
+//
+// What stays in memory: the models; of each remembered estimate what things are drawn by (forget_layers in records.h); and the one photo that was
+// worked on last, decoded, until its estimate is removed, another photo is worked on, or nothing has been done for some minutes.
 
 #include "serve/records.h"
 #include "serve/worker.h"
@@ -7,6 +10,7 @@
 #include "faceprobe/io/limits.h"
 #include "faceprobe/pipeline/insertion.h"
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <string>
@@ -25,8 +29,9 @@ struct StudioOptions {
   io::Limits limits;               // of photos
   std::filesystem::path folder;    // where results go; a folder each
   bool keep = false;               // results, when they are removed or the server ends
-  std::size_t history_limit = 12;  // an estimate's layers stay in memory
+  std::size_t history_limit = 12;  // estimates that are remembered
   std::size_t most_waiting = 16;
+  std::chrono::milliseconds photo_kept = std::chrono::minutes(5);  // decoded, when nothing is done
 };
 
 class Studio {
@@ -43,9 +48,10 @@ class Studio {
   std::shared_ptr<InsertionRecord> add_insertion(const std::string& estimate, const InsertionRequest& request);
 
   Records& records() { return records_; }
+  bool keeps_photo() const;  // whether one is in memory, decoded
 
  private:
-  // Photos that were decoded last, and the models: the worker's own.
+  // The models and the photo that was worked on last: the worker's own.
   struct Bench;
 
   StudioOptions options_;

@@ -4,6 +4,7 @@
 //   Worker worker(16);
 //   if (!worker.submit([] { draw(); })) refuse();
 
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
@@ -15,7 +16,8 @@ namespace faceprobe::serve {
 
 class Worker {
  public:
-  explicit Worker(std::size_t most_waiting);
+  // `rest` is called on the thread, once, when nothing has been there to do for `rest_after` since the last task; it does not throw.
+  explicit Worker(std::size_t most_waiting, std::function<void()> rest = {}, std::chrono::milliseconds rest_after = {});
   // What runs is finished; what waits is dropped.
   ~Worker();
   Worker(const Worker&) = delete;
@@ -26,11 +28,15 @@ class Worker {
 
  private:
   void run();
+  // The next task; none at the end.
+  std::function<void()> next(bool has_worked);
 
   std::mutex mutex_;
   std::condition_variable change_;
   std::deque<std::function<void()>> tasks_;
   std::size_t most_waiting_;
+  std::function<void()> rest_;
+  std::chrono::milliseconds rest_after_;
   bool ending_ = false;
   std::thread thread_;  // last: it uses the others
 };

@@ -29,9 +29,9 @@ std::string Observations::validate() const {
   }
   if (highlight.minCoeff() < 0 || shading.minCoeff() < 0) return "Observations hold negative light.";
   if (!horizon.allFinite() || !roughness.allFinite()) return "Observations hold values that are not finite.";
-  constexpr float kUnitTolerance = 0.01F;  // lengths of normals that were averaged or stored in halves
   const auto unit = [](const Eigen::MatrixX3f& rows) {
-    return ((rows.rowwise().norm().array() - 1).abs() < kUnitTolerance).all();
+    constexpr float kTolerance = 0.01F;  // normals may come from files of half floats
+    return ((rows.rowwise().norm().array() - 1).abs() < kTolerance).all();
   };
   if (!unit(normal) || !unit(view)) return "Normals and views must be of unit length.";
   if (weight.minCoeff() < 0 || !(weight.maxCoeff() > 0))

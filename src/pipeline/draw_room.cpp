@@ -19,6 +19,8 @@ constexpr std::array<Colour, 5> kLampColours = {
 constexpr int kViewPx = 640;
 constexpr int kFrameMargin = 48;
 constexpr double kRayMetres = 1.2;
+constexpr int kTitlePx = 17, kLabelPx = 15;
+constexpr double kLetterWidth = 0.63;  // of the font's height, at most on average
 
 // A view along an axis: two coordinates of the room across and up the picture.
 struct View {
@@ -71,9 +73,12 @@ void draw_view(ByteImage& canvas, const View& view, const Room& room) {
   const auto pixel = [&](const Eigen::Vector3d& p) { return frame.pixel(view.flat(p), view.left_px); };
   const auto label = [&](const Eigen::Vector3d& p, const std::string& words, const Colour& colour) {
     const Eigen::Vector2d at = pixel(p);
-    io::draw_text(canvas, static_cast<int>(at.x()) + 10, static_cast<int>(at.y()) - 8, words, 15, colour, false);
+    const int width = static_cast<int>(kLetterWidth * kLabelPx * static_cast<double>(words.size()));
+    const int last = view.left_px + kViewPx - 4 - width;  // further right it would be cut off
+    io::draw_text(canvas, std::min(static_cast<int>(at.x()) + 10, last), static_cast<int>(at.y()) - 8, words, kLabelPx,
+                  colour, false);
   };
-  io::draw_text(canvas, view.left_px + 16, 14, view.title, 17, kInk, true);
+  io::draw_text(canvas, view.left_px + 16, 12 + kTitlePx, view.title, kTitlePx, kInk, true);
   draw_ring(canvas, pixel(Eigen::Vector3d::Zero()), 5, kInk);
   label(Eigen::Vector3d::Zero(), "camera", kInk);
   for (std::size_t f = 0; f < room.faces.size(); ++f) {
@@ -99,7 +104,7 @@ void draw_view(ByteImage& canvas, const View& view, const Room& room) {
   // A metre, to measure by.
   const Eigen::Vector2d start(view.left_px + 16, kViewPx - 20);
   draw_line(canvas, start, start + Eigen::Vector2d(frame.scale(), 0), kInk);
-  io::draw_text(canvas, view.left_px + 16, kViewPx - 44, "1 m", 15, kInk, false);
+  io::draw_text(canvas, view.left_px + 16, kViewPx - 44, "1 m", kLabelPx, kInk, false);
 }
 
 }  // namespace

@@ -30,6 +30,7 @@ pipeline::FaceEstimate gridded_face(float left, const Eigen::Vector3d& place_m) 
     face.face.landmarks_px.row(i) << left + 120 * step / face::kMeshVertices, 100 + 150 * step / face::kMeshVertices,
         -step;
   }
+  face.geometry.crop = {.x_px = left - 20.5, .y_px = -8, .scale = 0.5, .width = 80, .height = 97};
   face.environment = face.confidence = EnvMap(Image(32, 16, 3, 1.0F));
   return face;
 }
@@ -105,6 +106,14 @@ TEST(Describe, AMeshIsTheXAndYOfEachPointInTurn) {
       ASSERT_EQ(json["mesh_px"][at + 1].get<float>(), face.landmarks_px(i, 1));
     }
   }
+}
+
+TEST(Describe, ACropIsThePartOfThePhotoThatTheLayersShow) {
+  const Described described(true);
+  const Json json = estimate_json(described.record);
+  // 80 x 97 px of a crop at half the photo's scale; its top is beyond the photo.
+  EXPECT_EQ(json["faces"][0]["crop_px"], (Json{19.5, -8, 160, 194}));
+  EXPECT_EQ(json["faces"][1]["crop_px"], (Json{379.5, -8, 160, 194}));
 }
 
 TEST(Describe, NothingOfAnEstimateIsToldBeforeItIsDone) {

@@ -52,6 +52,35 @@ TEST_F(HostileTest, ForeignOriginsAreForbiddenEverything) {
   EXPECT_EQ(result->status, 200);
 }
 
+// A picture or a link of another page comes without an Origin; browsers tell where it is from all the same.
+TEST_F(HostileTest, OtherPagesGetNothingButTheFrontPageByALink) {
+  const RunningServer server;
+  const auto status = [&](const std::string& target, const std::string& site, const std::string& mode,
+                          const std::string& dest) {
+    const auto result =
+        server.client().Get(target, {{"Sec-Fetch-Site", site}, {"Sec-Fetch-Mode", mode}, {"Sec-Fetch-Dest", dest}});
+    EXPECT_TRUE(result) << target;
+    if (!result) return 0;
+    if (result->status != 200) expect_failure(*result, 403, "forbidden", "Another page");
+    return result->status;
+  };
+  for (const std::string site : {"cross-site", "same-site"}) {
+    EXPECT_EQ(status("/api/v1/info", site, "no-cors", "image"), 403) << site;
+    EXPECT_EQ(status("/api/v1/info", site, "navigate", "document"), 403) << site;
+    EXPECT_EQ(status("/", site, "no-cors", "image"), 403) << site;
+    EXPECT_EQ(status("/", site, "navigate", "iframe"), 403) << site;
+    EXPECT_EQ(status("/", site, "navigate", "document"), 200) << site;
+    EXPECT_EQ(status("/?x=y", site, "navigate", "document"), 200) << site;
+  }
+  EXPECT_EQ(status("/api/v1/info", "same-origin", "cors", "empty"), 200);
+  EXPECT_EQ(status("/api/v1/info", "none", "navigate", "document"), 200);
+  auto client = server.client();
+  const auto posted = client.Post("/api/v1/estimates", {{"Sec-Fetch-Site", "cross-site"}}, "bytes", "image/png");
+  ASSERT_TRUE(posted);
+  expect_failure(*posted, 403, "forbidden", "Another page");
+  EXPECT_EQ(json_of(server.get("/estimates")), Json::array());
+}
+
 // A form of a stranger's page sends what it likes as the body of a request that is refused. Taken for the next request it would come from
 // nowhere, to our own name.
 TEST_F(HostileTest, TheBodyOfARefusedRequestIsNoRequest) {

@@ -79,6 +79,16 @@ httplib::Response RunningServer::post_photo(const std::string& bytes, const std:
 
 std::vector<Json> RunningServer::events(const std::string& address) const {
   std::vector<Json> states;
+  // A stream may end before the job does; browsers ask again then, too.
+  do {
+    const std::size_t before = states.size();
+    listen(address, states);
+    if (states.size() == before) return states;
+  } while (states.back()["state"] != "done" && states.back()["state"] != "failed");
+  return states;
+}
+
+void RunningServer::listen(const std::string& address, std::vector<Json>& states) const {
   std::string line;
   const auto take_line = [&] {
     constexpr std::string_view kData = "data: ";
@@ -96,7 +106,6 @@ std::vector<Json> RunningServer::events(const std::string& address) const {
     return true;
   });
   EXPECT_EQ(checked(result, address).get_header_value("Content-Type"), "text/event-stream");
-  return states;
 }
 
 std::filesystem::path samples_folder() { return sample_photo_file().parent_path(); }

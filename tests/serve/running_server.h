@@ -47,6 +47,9 @@ class RunningServer {
   std::vector<Json> events(const std::string& address) const;
 
  private:
+  // The states that one stream tells, behind those that are there.
+  void listen(const std::string& address, std::vector<Json>& states) const;
+
   TempFolder folder_;
   std::unique_ptr<Server> server_;
   std::thread thread_;

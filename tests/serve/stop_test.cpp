@@ -4,9 +4,11 @@
 #include "serve/running_server.h"
 #include "support/expect_error.h"
 
+#include <cerrno>
 #include <chrono>
 #include <future>
 #include <string>
+#include <system_error>
 #include <thread>
 
 namespace faceprobe::serve::testing {
@@ -30,6 +32,9 @@ TEST(ServerOptions, EachValueIsChecked) {
   EXPECT_TRUE(refused([](ServerOptions& o) { o.port = -1; }));
   EXPECT_TRUE(refused([](ServerOptions& o) { o.port = 65536; }));
   EXPECT_TRUE(refused([](ServerOptions& o) { o.max_upload_bytes = 0; }));
+  EXPECT_TRUE(refused([](ServerOptions& o) { o.most_listeners = 0; }));
+  EXPECT_TRUE(refused([](ServerOptions& o) { o.most_listeners = 24; }));  // as many as there are threads
+  EXPECT_TRUE(refused([](ServerOptions& o) { o.longest_stream = std::chrono::milliseconds(0); }));
   EXPECT_TRUE(refused([](ServerOptions& o) { o.studio.history_limit = 0; }));
   EXPECT_TRUE(refused([](ServerOptions& o) { o.studio.estimate.layer_px = 1; }));
   expect_error(ExitCode::kUsage, {"port"}, [] {
@@ -41,12 +46,22 @@ TEST(ServerOptions, EachValueIsChecked) {
 
 TEST_F(StopTest, APortThatIsTakenIsASentence) {
   const RunningServer first;
-  expect_error(ExitCode::kUsage, {"Port " + std::to_string(first.port()), "--port"}, [&] {
+  expect_error(ExitCode::kUsage, {"Port " + std::to_string(first.port()) + " is taken", "--port"}, [&] {
     ServerOptions options = quick_options(first.folder());
     options.port = first.port();
     const Server second(options);
   });
   EXPECT_EQ(first.get("/info").status, 200);
+}
+
+TEST(PortFault, SaysWhatTheSystemSaid) {
+  EXPECT_NE(port_fault(80, EADDRINUSE).find("Port 80 is taken, perhaps by another faceprobe;"), std::string::npos);
+  const std::string forbidden = port_fault(80, EACCES);
+  EXPECT_EQ(forbidden.find("taken"), std::string::npos) << forbidden;
+  EXPECT_NE(forbidden.find(std::generic_category().message(EACCES)), std::string::npos) << forbidden;
+  const std::string unknown = port_fault(8765, 0);
+  EXPECT_TRUE(unknown.starts_with("Port 8765 could not be opened;")) << unknown;
+  for (const int error : {EADDRINUSE, EACCES, 0}) EXPECT_TRUE(port_fault(80, error).ends_with("--port, or 0 for any."));
 }
 
 TEST_F(StopTest, APortIsFreeAgainAfterTheEnd) {

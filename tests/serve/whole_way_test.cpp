@@ -6,6 +6,7 @@
 #include "serve/contract.h"
 #include "serve/running_server.h"
 
+#include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <set>
@@ -171,6 +172,31 @@ TEST_F(WholeWayTest, EstimatesRunOneAfterAnotherAndNothingIsDrawnBefore) {
   EXPECT_EQ("/estimates/" + list[0]["id"].get<std::string>(), second);  // newest first
 }
 
+// The sample portrait beside itself.
+std::string two_portraits() {
+  const Image one = io::load_photo(sample_photo_file()).linear;
+  Image both(2 * one.width(), one.height(), one.channels());
+  for (int y = 0; y < both.height(); ++y) {
+    for (int x = 0; x < both.width(); ++x) std::copy_n(one.pixel(x % one.width(), y), one.channels(), both.pixel(x, y));
+  }
+  const TempFolder folder;
+  io::write_picture(folder / "both.png", both);
+  return bytes_of(folder / "both.png");
+}
+
+TEST_F(WholeWayTest, SeveralFacesAreOneWayAndEachLightDrawsOn) {
+  const RunningServer server;
+  const std::string address = address_in(server.post_photo(two_portraits()));
+  const Json estimate = done(server, address, "/estimates/{id}");  // its states never go back
+  ASSERT_EQ(estimate["faces"].size(), 2U);
+  for (const Json& light : {Json{{"face", 1}}, Json{{"joint_light", true}}}) {
+    Json body = {{"object", "cube"}, {"quality", "preview"}};
+    body.update(light);
+    const std::string drawn = address_in(server.post_json(address + "/insertions", body));
+    EXPECT_EQ(server.events(drawn).back()["state"], "done") << light;
+  }
+}
+
 // Until the server holds no more than so many folders; the worker lets go of what it did shortly after.
 void expect_folders(const RunningServer& server, std::size_t wanted) {
   for (int i = 0; i < 2000 && server.folder_entries() > wanted; ++i) server.get("/info");
@@ -204,6 +230,31 @@ TEST_F(WholeWayTest, RemovingADrawingStopsIt) {
   expect_failure(server.get(drawn), 404, "not_found", "There is no insertion");
   // Those who did not ask for it are served on.
   EXPECT_EQ(server.remove(address).status, 204);
+  expect_folders(server, 0);
+}
+
+TEST_F(WholeWayTest, RemovingAnEstimateStopsIt) {
+  const RunningServer server([](ServerOptions& options) {
+    with_samples(options);
+    options.studio.estimate.map_width = 4096;  // takes long, so that it cannot be over before it is removed
+  });
+  const std::string address = sample_estimate(server);
+  std::string text;
+  bool removed = false;
+  const auto result = server.client().Get("/api/v1" + address + "/events", [&](const char* data, std::size_t size) {
+    text.append(data, size);
+    if (!removed && text.find("\"running\"") != std::string::npos) {
+      EXPECT_EQ(server.remove(address).status, 204);
+      removed = true;
+    }
+    return true;
+  });
+  ASSERT_TRUE(result);
+  ASSERT_TRUE(removed) << text;
+  const Json last = Json::parse(text.substr(text.rfind("data: ") + 6), nullptr, false);
+  EXPECT_EQ(last["state"], "failed") << text;
+  EXPECT_EQ(text.find("Writing files"), std::string::npos) << "its stages went on to the last: " << text;
+  expect_failure(server.get(address), 404, "not_found", "There is no estimate");
   expect_folders(server, 0);
 }
 

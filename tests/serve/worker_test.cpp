@@ -86,6 +86,37 @@ TEST(Worker, AtItsEndWhatRunsIsFinishedAndWhatWaitsIsDropped) {
   EXPECT_EQ(held.use_count(), 1) << "dropped tasks let go of what they hold";
 }
 
+TEST(Worker, RestsOnceAfterItHasWorked) {
+  std::atomic<int> rests = 0;
+  std::promise<void> first, second;
+  {
+    Worker worker(
+        10, [&] { (++rests == 1 ? first : second).set_value(); }, std::chrono::milliseconds(10));
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    EXPECT_EQ(rests, 0) << "there is nothing to rest from";
+    ASSERT_TRUE(worker.submit([] {}));
+    first.get_future().wait();
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    EXPECT_EQ(rests, 1);
+    ASSERT_TRUE(worker.submit([] {}));
+    second.get_future().wait();
+  }
+  EXPECT_EQ(rests, 2);
+}
+
+TEST(Worker, DoesNotRestWhileThereIsWorkNorAtItsEnd) {
+  std::atomic<int> rests = 0;
+  std::promise<void> all;
+  {
+    Worker worker(
+        10, [&] { ++rests; }, std::chrono::minutes(10));
+    for (int i = 0; i < 5; ++i) ASSERT_TRUE(worker.submit([] {}));
+    ASSERT_TRUE(worker.submit([&] { all.set_value(); }));
+    all.get_future().wait();
+  }
+  EXPECT_EQ(rests, 0);
+}
+
 TEST(Worker, OneThatHadNothingToDoEnds) { const Worker worker(1); }
 
 }  // namespace

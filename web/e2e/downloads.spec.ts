@@ -1,4 +1,4 @@
-// Everything in one file.
+// Files of an estimate: all in one, and one by one.
 import { readFileSync } from 'node:fs';
 
 import { openEstimate } from './page.ts';
@@ -40,4 +40,27 @@ test('the ZIP has every file that is listed', async ({ page, oneFace }) => {
   expect((await report).suggestedFilename()).toBe('Grace-report.json');
   const json = JSON.parse(readFileSync(await (await report).path(), 'utf8'));
   expect(json.faces[0].light.main_lights).toEqual(oneFace.report.faces[0]!.light.main_lights);
+});
+
+const beginnings = {
+  'Light map, EXR': ['environment.exr', '\x76\x2f\x31\x01'],
+  'Light map, HDR': ['environment.hdr', '#?RADIANCE\n'],
+  'Light map, PNG': ['environment.png', '\x89PNG\r\n\x1a\n'],
+  'Blender script': ['blender.py', '# Light of a portrait'],
+  'USD scene': ['light.usda', '#usda 1.0\n'],
+  'glTF scene': ['light.gltf', '{'],
+} as const;
+
+test('each file that is offered by name is what its name says', async ({ page, oneFace }) => {
+  await openEstimate(page, oneFace.id);
+  const downloads = page.getByRole('region', { name: 'Downloads' });
+  for (const [text, [path, beginning]] of Object.entries(beginnings)) {
+    const download = page.waitForEvent('download');
+    await downloads.getByRole('link', { name: text }).click();
+    expect((await download).suggestedFilename(), text).toBe(`Grace-${path}`);
+    const bytes = readFileSync(await (await download).path());
+    expect(bytes.toString('latin1', 0, beginning.length), text).toBe(beginning);
+    expect(bytes.length, text).toBe(oneFace.files.find((file) => file.path === path)!.bytes);
+    if (path === 'light.gltf') expect(JSON.parse(bytes.toString('utf8')).asset.version).toBe('2.0');
+  }
 });

@@ -1,25 +1,7 @@
-// From the start page to a rendered picture without a pointer.
-import type { Locator, Page } from '@playwright/test';
-
-import { partsOf } from './page.ts';
+// All that people do, without a pointer.
+import { expectMap, openEstimate, partsOf, tabTo } from './page.ts';
 import { test, expect } from './served.ts';
-
-// Tab until `wanted` has the focus, which is to be seen at every stop.
-async function tabTo(page: Page, wanted: Locator): Promise<void> {
-  await wanted.waitFor({ state: 'attached' });
-  for (let stops = 0; stops < 40; ++stops) {
-    await page.keyboard.press('Tab');
-    const outlined = await page.evaluate(() => {
-      const at = document.activeElement!;
-      const shown = [at, ...(at.nextElementSibling ? [at.nextElementSibling] : [])];
-      return at === document.body || shown.some((element) => getComputedStyle(element).outlineStyle !== 'none');
-    });
-    const focused = await page.evaluate(() => document.activeElement!.outerHTML.slice(0, 120));
-    expect(outlined, `focus is to be seen at ${focused}`).toBe(true);
-    if (await wanted.evaluate((element) => element === document.activeElement)) return;
-  }
-  throw new Error(`Tab does not get to ${wanted}.`);
-}
+import { postPhoto, samplePath, samplePhoto } from './server.ts';
 
 test('the whole way by keyboard', async ({ page }) => {
   await page.goto('/');
@@ -56,4 +38,69 @@ test('the whole way by keyboard', async ({ page }) => {
   await tabTo(page, page.getByText('Rendered files'));
   await page.keyboard.press('Enter');
   await expect(page.getByRole('link', { name: 'composite.png' })).toBeVisible();
+});
+
+test('a file is chosen by keyboard', async ({ page }) => {
+  await page.goto('/');
+  await tabTo(page, page.getByRole('button', { name: 'Choose a photo' }));
+  const chooser = page.waitForEvent('filechooser');
+  await page.keyboard.press('Space');
+  await (await chooser).setFiles(samplePath('astronaut.png'));
+  await expectMap(page);
+  await expect(partsOf(page).photoName).toBeFocused();
+});
+
+test('the camera is opened and left by keyboard', async ({ page }) => {
+  await page.goto('/');
+  const button = page.getByRole('button', { name: 'Use the camera' });
+  await tabTo(page, button);
+  await page.keyboard.press('Enter');
+  const dialog = page.getByRole('dialog', { name: 'Take a photo' });
+  await expect(dialog.getByRole('button', { name: 'Take the photo' })).toBeEnabled();
+  // Nothing behind the dialog takes the focus.
+  for (let stops = 0; stops < 6; ++stops) {
+    await page.keyboard.press('Tab');
+    const outside = await page.evaluate(() => !document.activeElement!.closest('dialog, body:focus'));
+    expect(outside).toBe(false);
+  }
+  await page.keyboard.press('Escape');
+  await expect(dialog).toBeHidden();
+  await expect(button).toBeFocused();
+});
+
+test('a face is chosen by keyboard', async ({ page, twoFaces }) => {
+  await openEstimate(page, twoFaces.id);
+  const boxes = page.getByRole('group', { name: 'Faces in the photo' });
+  for (const [face, key] of [
+    [1, 'Enter'],
+    [2, 'Space'],
+  ] as const) {
+    const box = boxes.getByRole('button', { name: `Face ${face} of 2` });
+    await tabTo(page, box);
+    await page.keyboard.press(key);
+    await expect(box).toHaveAttribute('aria-pressed', 'true');
+    await expect(box).toBeFocused();
+    await expect(page.getByRole('radio', { name: `Face ${face}` })).toBeChecked();
+  }
+  // From the radio buttons it is chosen by arrows.
+  await tabTo(page, page.getByRole('radio', { name: 'Face 2' }));
+  await page.keyboard.press('ArrowDown');
+  await expect(page.getByRole('radio', { name: 'All faces together' })).toBeChecked();
+});
+
+test('a photo is come back to, and removed, by keyboard', async ({ page, server, oneFace }) => {
+  await postPhoto(server, samplePhoto('astronaut.png'), 'Second.png');
+  await page.goto('/');
+  const { history, photoName } = partsOf(page);
+  const second = history.getByRole('button', { name: 'Second.png 1 face' });
+  await openEstimate(page, oneFace.id);
+  await tabTo(page, history.getByRole('button', { name: /^Second\.png/ }));
+  await page.keyboard.press('Enter');
+  await expect(photoName).toHaveText('Second.png');
+  await expectMap(page);
+  await expect(second).toBeVisible();
+  await tabTo(page, history.getByRole('button', { name: 'Remove Second.png' }));
+  await page.keyboard.press('Enter');
+  await expect(second).toBeHidden();
+  await expect(page.getByRole('heading', { name: 'Drop a photo of a face' })).toBeVisible();
 });

@@ -1,5 +1,5 @@
 // What is no photo of a face ends in a sentence beside it, and in a way on.
-import { drop, partsOf } from './page.ts';
+import { drop, dropTooLarge, partsOf } from './page.ts';
 import { nobody, pictureOf } from './pictures.ts';
 import { test, expect } from './served.ts';
 
@@ -31,11 +31,7 @@ test('a file that is too large is not sent', async ({ page }) => {
   await expect(page.getByRole('button', { name: 'Grace Hopper, US Navy' })).toBeVisible(); // the server has told its limits
   const sent: string[] = [];
   page.on('request', (request) => request.method() === 'POST' && sent.push(request.url()));
-  await page.evaluate(() => {
-    const dataTransfer = new DataTransfer();
-    dataTransfer.items.add(new File([new Uint8Array(68_000_000)], 'huge.jpg', { type: 'image/jpeg' }));
-    document.body.dispatchEvent(new DragEvent('drop', { dataTransfer, bubbles: true, cancelable: true }));
-  });
+  await dropTooLarge(page);
   await expect(page.getByRole('alert').filter({ hasText: '68 MB' })).toContainText('up to 67 MB');
   await expect(page.getByRole('button', { name: 'Choose a photo' })).toBeEnabled();
   expect(sent).toEqual([]);

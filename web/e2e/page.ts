@@ -1,9 +1,11 @@
 // The page's parts by the names that people hear, and what is done with them again and again.
-import { expect, type Locator, type Page, type TestInfo } from '@playwright/test';
+import { expect, type JSHandle, type Locator, type Page, type TestInfo } from '@playwright/test';
 import { mkdirSync } from 'node:fs';
 import { join } from 'node:path';
 
-import type { Photo } from './pictures.ts';
+import { apart, clearly, decoded, type Photo, type Pixels } from './pictures.ts';
+
+const rounding = 8; // of 255: browsers do not draw an enlarged picture alike each time
 
 export const partsOf = (page: Page) => ({
   photoFile: page.locator('input[type=file]'),
@@ -58,8 +60,8 @@ function spreadOf(rgba: Uint8Array): number {
   return high - low;
 }
 
-// As a file manager drops it on the page.
-export async function drop(page: Page, photo: Photo): Promise<void> {
+// As a file manager carries it over the page.
+export async function carry(page: Page, photo: Photo): Promise<JSHandle<DataTransfer>> {
   const transfer = await page.evaluateHandle(
     ({ name, mimeType, base64 }) => {
       const bytes = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
@@ -70,21 +72,57 @@ export async function drop(page: Page, photo: Photo): Promise<void> {
     { name: photo.name, mimeType: photo.mimeType, base64: photo.buffer.toString('base64') },
   );
   await page.locator('body').dispatchEvent('dragover', { dataTransfer: transfer });
-  await page.locator('body').dispatchEvent('drop', { dataTransfer: transfer });
+  return transfer;
 }
 
-// A part once it has stopped to change, for what fades in or takes its time to be drawn; if `unlike` is given, not before it is another.
+// And drops it there.
+export async function drop(page: Page, photo: Photo): Promise<void> {
+  await page.locator('body').dispatchEvent('drop', { dataTransfer: await carry(page, photo) });
+}
+
+// A file above the server's limit, which is not sent; made in the page, because it would take long to get there.
+export async function dropTooLarge(page: Page): Promise<void> {
+  await page.evaluate(() => {
+    const dataTransfer = new DataTransfer();
+    dataTransfer.items.add(new File([new Uint8Array(68_000_000)], 'huge.jpg', { type: 'image/jpeg' }));
+    document.body.dispatchEvent(new DragEvent('drop', { dataTransfer, bubbles: true, cancelable: true }));
+  });
+}
+
+// Tab until `wanted` has the focus, which is to be seen at every stop.
+export async function tabTo(page: Page, wanted: Locator): Promise<void> {
+  await wanted.waitFor({ state: 'attached' });
+  for (let stops = 0; stops < 80; ++stops) {
+    await page.keyboard.press('Tab');
+    const outlined = await page.evaluate(() => {
+      const at = document.activeElement!;
+      const shown = [at, ...(at.nextElementSibling ? [at.nextElementSibling] : [])];
+      return at === document.body || shown.some((element) => getComputedStyle(element).outlineStyle !== 'none');
+    });
+    const focused = await page.evaluate(() => document.activeElement!.outerHTML.slice(0, 120));
+    expect(outlined, `focus is to be seen at ${focused}`).toBe(true);
+    if (await wanted.evaluate((element) => element === document.activeElement)) return;
+  }
+  throw new Error(`Tab does not get to ${wanted}.`);
+}
+
+// A picture of a part once it has stopped to change, for what fades in or takes its time to be drawn; if `unlike` is given, not before it is another.
 export async function steady(part: Locator, unlike?: Buffer): Promise<Buffer> {
-  let last: Buffer = Buffer.alloc(0);
+  const page = part.page();
+  const before = unlike && (await decoded(page, unlike));
+  let last: Pixels | undefined;
+  let shot: Buffer = Buffer.alloc(0);
   let alike = 0;
   const look = async () => {
-    const now = await part.screenshot();
-    alike = now.equals(last) && !unlike?.equals(now) ? alike + 1 : 0;
+    shot = await part.screenshot();
+    const now = await decoded(page, shot);
+    const another = !before || apart(now, before) > clearly;
+    alike = another && last && apart(now, last) < rounding ? alike + 1 : 0;
     last = now;
     return alike;
   };
-  await expect.poll(look, { message: 'it is drawn', intervals: [200], timeout: 90_000 }).toBeGreaterThan(2);
-  return last;
+  await expect.poll(look, { message: 'it is drawn', intervals: [200], timeout: 90_000 }).toBeGreaterThan(1);
+  return shot;
 }
 
 // For people to look at, in a folder beside the failures.

@@ -80,15 +80,19 @@ export interface Insertion {
   files?: File[];
 }
 
+// Each request over a connection of its own: on a busy machine one that is kept may be closed by the server just when it is used again.
+function ask(server: Server, path: string, request: RequestInit = {}): Promise<Response> {
+  const headers = { ...(request.headers as Record<string, string>), connection: 'close' };
+  return fetch(`${server.address}api/v1${path}`, { ...request, headers });
+}
+
 export async function get<T>(server: Server, path: string): Promise<T> {
-  return answerOf(await fetch(`${server.address}api/v1${path}`));
+  return answerOf(await ask(server, path));
 }
 
 export async function postPhoto(server: Server, photo: Buffer, name: string): Promise<Estimate> {
   const body = new Blob([new Uint8Array(photo)], { type: 'application/octet-stream' });
-  return answerOf(
-    await fetch(`${server.address}api/v1/estimates?name=${encodeURIComponent(name)}`, { method: 'POST', body }),
-  );
+  return answerOf(await ask(server, `/estimates?name=${encodeURIComponent(name)}`, { method: 'POST', body }));
 }
 
 export async function estimateOf(server: Server, photo: Buffer, name: string): Promise<Estimate> {
@@ -99,9 +103,7 @@ export async function estimateOf(server: Server, photo: Buffer, name: string): P
 export async function postInsertion(server: Server, estimate: string, request: object): Promise<Insertion> {
   const headers = { 'content-type': 'application/json' };
   const body = JSON.stringify(request);
-  return answerOf(
-    await fetch(`${server.address}api/v1/estimates/${estimate}/insertions`, { method: 'POST', headers, body }),
-  );
+  return answerOf(await ask(server, `/estimates/${estimate}/insertions`, { method: 'POST', headers, body }));
 }
 
 export async function insertionOf(server: Server, estimate: string, request: object): Promise<Insertion> {
@@ -110,7 +112,7 @@ export async function insertionOf(server: Server, estimate: string, request: obj
 }
 
 export async function forget(server: Server, path: string): Promise<void> {
-  await fetch(`${server.address}api/v1${path}`, { method: 'DELETE' });
+  await ask(server, path, { method: 'DELETE' });
 }
 
 export async function forgetAllBut(server: Server, kept: Set<string>): Promise<void> {

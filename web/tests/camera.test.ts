@@ -1,21 +1,22 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
-import { fieldOfViewDeg, pixelOf, pointAt } from '../src/light/camera.ts';
+import { fieldOfViewDeg, pointAt } from '../src/light/camera.ts';
 import { farther, moved, outlineOf, placementAt, reshaped, sizeOf, turned } from '../src/light/placement.ts';
 import { close } from './support.ts';
 
 const camera = { widthPx: 640, heightPx: 480, focalPx: 600 };
 
-test('a pixel becomes a point and that point the pixel', () => {
+test('a point is that far ahead, and seen at its pixel', () => {
   for (const pixel of [
     [0, 0],
     [320, 240],
     [601.5, 17.25],
   ] as const) {
-    const back = pixelOf(camera, pointAt(camera, pixel, 0.7));
-    close(back[0], pixel[0], 1e-9);
-    close(back[1], pixel[1], 1e-9);
+    const [x, y, z] = pointAt(camera, pixel, 0.7);
+    assert.equal(z, -0.7);
+    close(320 + (600 * x) / 0.7, pixel[0], 1e-9);
+    close(240 - (600 * y) / 0.7, pixel[1], 1e-9);
   }
 });
 

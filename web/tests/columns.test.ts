@@ -2,8 +2,8 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
 import { columnsForThree, rollColumns } from '../src/light/columns.ts';
-import { uvOfDirection } from '../src/light/radiance_map.ts';
 import type { Vec3 } from '../src/light/vector.ts';
+import { uvOf } from './support.ts';
 
 const width = 16;
 const height = 8;
@@ -28,7 +28,7 @@ test('a lamp of our map is found by three.js where it is', () => {
   ];
   for (const lamp of lamps) {
     const ours = new Float32Array(width * height * 3);
-    ours[3 * texelAt(uvOfDirection(lamp))] = 8;
+    ours[3 * texelAt(uvOf(lamp))] = 8;
     const theirs = columnsForThree(ours, width, 3);
     assert.equal(theirs[3 * texelAt(equirectUv(lamp))], 8, `lamp at ${lamp}`);
     assert.equal(

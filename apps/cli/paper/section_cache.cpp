@@ -44,18 +44,6 @@ std::string listing_of(const fs::path& folder) {
   return text;
 }
 
-std::string hash_of_rivals(const fs::path& folder) {
-  if (folder.empty() || !fs::is_directory(folder)) return "none";
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    if (entry.path().extension() == ".safetensors") files.push_back(entry.path());
-  }
-  std::ranges::sort(files);
-  std::string text;
-  for (const fs::path& file : files) text += file.filename().string() + hash_of_file(file);
-  return text;
-}
-
 std::optional<Sections> read_sections(const fs::path& file) {
   if (!fs::exists(file)) return std::nullopt;
   const nlohmann::json json = nlohmann::json::parse(io::read_text(file, kMostBytes), nullptr, false);
@@ -71,7 +59,7 @@ std::optional<Sections> read_sections(const fs::path& file) {
 
 }  // namespace
 
-std::string key_of(const PaperPlan& plan, Asks asks) {
+std::string key_of(const PaperPlan& plan, std::span<const char* const> rivals) {
   std::string text = hash_of_file("/proc/self/exe");
   for (const char* name : {"face.safetensors", "light.safetensors"}) text += hash_of_file(io::data_file(name));
   for (const fs::path& folder : {plan.faces, plan.light, plan.groups, plan.training}) {
@@ -79,7 +67,10 @@ std::string key_of(const PaperPlan& plan, Asks asks) {
   }
   for (const char* part : {"real", "hdri/dev", "objects"}) text += part + listing_of(plan.data / part);
   if (fs::exists(plan.data / "hdri" / "dev.csv")) text += hash_of_file(plan.data / "hdri" / "dev.csv");
-  if (asks == Asks::kRivals) text += hash_of_rivals(plan.rivals);
+  for (const char* rival : rivals) {
+    const fs::path file = plan.rivals / rival;
+    text += rival + (!plan.rivals.empty() && fs::exists(file) ? hash_of_file(file) : "none");
+  }
   text += plan.quick ? "quick" : "whole";
   return io::sha256_hex(text);
 }

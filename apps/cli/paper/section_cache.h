@@ -5,16 +5,14 @@
 #include "paper/plan.h"
 
 #include <functional>
+#include <span>
 #include <string>
 
 namespace faceprobe::cli {
 
-// Whether a part has rows of rival networks: another rival then makes it new.
-enum class Asks { kOurs, kRivals };
-
-// Hash over the program, its weights, the rivals' where they are asked, the recipes of the faces, and names, sizes and times of all other data.
-// Throws Error(kInput).
-std::string key_of(const PaperPlan& plan, Asks asks);
+// Hash over the program, its weights, those of the rivals that are named (files in plan.rivals), the recipes of the faces, and names, sizes and
+// times of all other data. Throws Error(kInput).
+std::string key_of(const PaperPlan& plan, std::span<const char* const> rivals);
 
 // The part called `name`, from plan.output/cache or measured now and left there. Throws what `measure` does, and Error(kOutput).
 Sections cached_part(const PaperPlan& plan, const std::string& key, const std::string& name,

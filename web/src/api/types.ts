@@ -37,7 +37,7 @@ export interface Info {
   samples: { name: string; title: string }[];
 }
 
-export interface ObjectMesh {
+interface ObjectMesh {
   material: number;
   positions: number[];
   normals: number[];
@@ -74,11 +74,12 @@ export interface EstimateSummary {
 
 export interface Face {
   box_px: [number, number, number, number];
+  crop_px: [number, number, number, number]; // what its layers show of the photo
   mesh_px: number[];
   folder: string;
 }
 
-export interface Spot {
+interface Spot {
   at_px: [number, number];
   distance_m: number;
   height_m: number;
@@ -123,7 +124,7 @@ export interface Room {
 }
 
 // What an estimate has once its job is done.
-export interface EstimateResult {
+interface EstimateResult {
   photo: { width_px: number; height_px: number };
   focal_px: number;
   up_cam: [number, number, number];

@@ -23,8 +23,3 @@ export function pointAt(camera: PhotoCamera, [x, y]: Pixel, distanceM: number): 
     -distanceM,
   ];
 }
-
-// Where a point in front of the camera (z < 0) is seen.
-export function pixelOf(camera: PhotoCamera, [x, y, z]: Vec3): Pixel {
-  return [camera.widthPx / 2 - (camera.focalPx * x) / z, camera.heightPx / 2 + (camera.focalPx * y) / z];
-}

@@ -1,10 +1,11 @@
 // From linear light to what a screen shows.
 
 import type { RadianceMap } from './radiance_map.ts';
+import { within } from './within.ts';
 
 // The sRGB curve; 0 and 1 stay.
 export function srgbFromLinear(value: number): number {
-  const v = Math.max(0, Math.min(1, value));
+  const v = within(value, 0, 1);
   return v <= 0.0031308 ? 12.92 * v : 1.055 * v ** (1 / 2.4) - 0.055;
 }
 
@@ -41,7 +42,7 @@ export function developed(
   const gain = gainOfStops(stops);
   const pixels = new Uint8ClampedArray(4 * width * height);
   const columns = samplesOf(width, map.width, (i, count) => (i + count) % count);
-  const rows = samplesOf(height, map.height, (i, count) => Math.max(0, Math.min(count - 1, i)));
+  const rows = samplesOf(height, map.height, (i, count) => within(i, 0, count - 1));
   let at = 0;
   for (const row of rows) {
     const low = 3 * map.width * row.low;

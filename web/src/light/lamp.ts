@@ -1,8 +1,10 @@
 // A lamp that is a disc in the sky, for a renderer that knows only lamps without width.
 
+import { within } from './within.ts';
+
 // Half the angle, in radians, of a disc of that solid angle.
 export function discRadius(solidAngleSr: number): number {
-  return Math.acos(Math.max(-1, Math.min(1, 1 - solidAngleSr / (2 * Math.PI))));
+  return Math.acos(within(1 - solidAngleSr / (2 * Math.PI), -1, 1));
 }
 
 // GGX width with which a mirror shows a lamp without width as bright as the disc. Such a lobe shows irradiance E at

@@ -1,6 +1,8 @@
 // Where a thing stands in the photo, as the server's insertions take it.
 
+import type { Box } from './box.ts';
 import type { PhotoCamera, Pixel } from './camera.ts';
+import { within } from './within.ts';
 
 export interface Placement {
   atPx: Pixel; // where its foot is seen
@@ -41,15 +43,8 @@ export function moved(placement: Placement, camera: PhotoCamera, [dx, dy]: Pixel
   return { ...placement, atPx };
 }
 
-// A thing's box as a share of the photo, as if it were seen from straight ahead at its foot's distance.
-export interface Outline {
-  left: number;
-  top: number;
-  width: number;
-  height: number;
-}
-
-export function outlineOf(placement: Placement, size: Size, camera: PhotoCamera): Outline {
+// A thing's box over the photo, as if it were seen from straight ahead at its foot's distance.
+export function outlineOf(placement: Placement, size: Size, camera: PhotoCamera): Box {
   const heightPx = (placement.heightM * camera.focalPx) / placement.distanceM;
   const widthPx = (heightPx * size.width) / size.height;
   return {
@@ -84,8 +79,4 @@ export function farther(placement: Placement, factor: number, spotM: number): Pl
 export function turned(placement: Placement, byDeg: number): Placement {
   const turn = (placement.turnDeg + byDeg) % 360;
   return { ...placement, turnDeg: turn > 180 ? turn - 360 : turn <= -180 ? turn + 360 : turn };
-}
-
-function within(value: number, low: number, high: number): number {
-  return Math.max(low, Math.min(high, value));
 }

@@ -8,17 +8,12 @@ export interface RadianceMap {
   readonly rgb: Float32Array; // linear Rec.709, row by row
 }
 
-// Where a direction is seen: u from the left in [0, 1), v from the top in [0, 1].
-export function uvOfDirection([x, y, z]: Vec3): [number, number] {
-  const u = 0.5 - Math.atan2(x, z) / (2 * Math.PI);
-  return [u - Math.floor(u), Math.acos(Math.max(-1, Math.min(1, y / Math.hypot(x, y, z)))) / Math.PI];
-}
-
 // Azimuth (0 is +z, +90 is +x) and elevation in degrees.
 export function anglesOf([x, y, z]: Vec3): [number, number] {
   return [(180 / Math.PI) * Math.atan2(x, z), (180 / Math.PI) * Math.atan2(y, Math.hypot(x, z))];
 }
 
+// Where those are seen: u from the left in [0, 1), v from the top in [0, 1].
 export function uvOfAngles(azimuthDeg: number, elevationDeg: number): [number, number] {
   const u = 0.5 - azimuthDeg / 360;
   return [u - Math.floor(u), 0.5 - elevationDeg / 180];

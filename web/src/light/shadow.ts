@@ -3,8 +3,9 @@
 import { srgbFromLinear } from './exposure.ts';
 import { irradiance, type RadianceMap } from './radiance_map.ts';
 import { dot, luminance, type Vec3 } from './vector.ts';
+import { within } from './within.ts';
 
-export interface DistantLamp {
+interface DistantLamp {
   direction: Vec3; // unit, towards the lamp
   irradiance: number; // luminance, on a surface that faces it
 }
@@ -19,7 +20,7 @@ export function lampShare(lamp: DistantLamp, rest: RadianceMap, up: Vec3): numbe
 // How opaque black must lie over a photo so that, where it is full, 1 - `taken` of the light is left. Canvases blend encoded
 // values; 1 - taken of a white's light is encoded so, and of darker tones nearly.
 export function inkOf(taken: number): number {
-  return 1 - srgbFromLinear(1 - Math.max(0, Math.min(1, taken)));
+  return 1 - srgbFromLinear(1 - within(taken, 0, 1));
 }
 
 // Share of an even sky that a ball of radius 1 on the ground hides from a place that far from its foot: all below it, and less

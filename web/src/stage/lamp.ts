@@ -4,6 +4,7 @@ import { Color, DirectionalLight, type Sphere, Vector3 } from 'three';
 
 import type { MainLight } from '../api/types.ts';
 import { discRadius } from '../light/lamp.ts';
+import { within } from '../light/within.ts';
 
 const mapSize = 256; // small, because the blur's reach is in its texels
 const away = 4; // radii of the object, from the lamp to its middle
@@ -31,6 +32,6 @@ export function aim(lamp: DirectionalLight, light: MainLight, ball: Sphere): voi
   camera.updateProjectionMatrix();
   // Half shadow of what is half a radius away.
   const penumbra = 0.5 * ball.radius * Math.tan(Math.min(1, discRadius(light.solid_angle_sr)));
-  lamp.shadow.radius = Math.max(1, Math.min(widest, (penumbra / (2 * half)) * mapSize));
+  lamp.shadow.radius = within((penumbra / (2 * half)) * mapSize, 1, widest);
   lamp.shadow.normalBias = 0.02 * ball.radius;
 }

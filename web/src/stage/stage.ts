@@ -1,11 +1,12 @@
 // A thing in the photo, in the photo's light, fast enough to be dragged: a preview of what the path tracer draws.
 //
-//   const stage = new Stage(canvas, { camera, up, photo });
+//   const stage = new Stage(canvas, { camera, up, photo }, (lost) => { ... });
 //   stage.setLight({ rest, lamp });
 //   stage.setModel(pot, null);
 //   stage.place(placement);
 //
 // Draws when something has changed, not all the time. Radiance 1 is the photo's white, so no tone mapping.
+// A browser may take the graphics away and give them back; the stage says so, keeps what it is told meanwhile, and goes on.
 
 import {
   type DirectionalLight,
@@ -35,12 +36,12 @@ import { Ground } from './ground.ts';
 import { aim, lampOf } from './lamp.ts';
 import { standing, type StandingModel } from './model.ts';
 
-export interface StageLight {
+interface StageLight {
   rest: RadianceMap; // the map without its main lamp
   lamp: MainLight | null;
 }
 
-export interface StagePhoto {
+interface StagePhoto {
   camera: PhotoCamera;
   up: Vec3;
   photo: HTMLImageElement; // loaded
@@ -64,13 +65,17 @@ export class Stage {
   private placement: Placement | null = null;
   private share = 0; // of the ground's light, the lamp's
   private frame = 0;
+  private lost = false;
 
   // Throws when the browser has no WebGL.
   constructor(
-    canvas: HTMLCanvasElement,
+    private readonly canvas: HTMLCanvasElement,
     private readonly picture: StagePhoto,
+    private readonly onLost: (lost: boolean) => void,
   ) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true });
+    canvas.addEventListener('webglcontextlost', this.lose);
+    canvas.addEventListener('webglcontextrestored', this.regain); // after the renderer's own, which makes its state anew
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = VSMShadowMap;
     const { camera } = picture;
@@ -84,6 +89,8 @@ export class Stage {
   }
 
   setLight(light: StageLight): void {
+    this.light = light;
+    if (this.lost) return; // nothing can be drawn, so nothing be blurred
     this.environment?.dispose();
     const around = surroundings(this.renderer, light.rest);
     this.environment = around;
@@ -92,7 +99,6 @@ export class Stage {
       this.scene.remove(this.lamp, this.lamp.target);
       this.lamp.dispose();
     }
-    this.light = light;
     this.lamp = light.lamp && lampOf(light.lamp);
     if (this.lamp) this.scene.add(this.lamp, this.lamp.target);
     this.lampWidth.value = light.lamp ? alphaOfDisc(light.lamp.solid_angle_sr) : 0;
@@ -134,6 +140,8 @@ export class Stage {
   }
 
   dispose(): void {
+    this.canvas.removeEventListener('webglcontextlost', this.lose);
+    this.canvas.removeEventListener('webglcontextrestored', this.regain);
     cancelAnimationFrame(this.frame);
     this.model?.dispose();
     this.lamp?.dispose();
@@ -144,6 +152,20 @@ export class Stage {
     // Browsers allow few contexts at a time.
     this.renderer.forceContextLoss();
   }
+
+  private readonly lose = (event: Event) => {
+    event.preventDefault(); // else it never comes back
+    this.lost = true;
+    this.onLost(true);
+  };
+
+  // three.js sends meshes and pictures again by itself, but the blurred surroundings were drawn, and went with the context.
+  private readonly regain = () => {
+    this.lost = false;
+    if (this.light) this.setLight(this.light);
+    this.draw();
+    this.onLost(false);
+  };
 
   private shade(): void {
     this.ground.setLight(this.share, this.model?.glass ? glassLetsPass : 0);

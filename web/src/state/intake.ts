@@ -12,7 +12,6 @@ export interface Intake {
   trouble?: string;
   takePhoto(photo: Blob, name: string): Promise<void>;
   takeSample(name: string, title: string): Promise<void>;
-  fail(sentence: string): void;
   // What the page itself can show of an estimate's photo until the server has it upright and in sRGB.
   previewOf(id: string): string | undefined;
 }
@@ -49,7 +48,6 @@ export function useIntake(info: Info | undefined, onTaken: (id: string) => void)
         () => estimateSample(name, title),
         () => addressOf.sample(name),
       ),
-    fail: (trouble) => setState({ busy: false, trouble }),
     previewOf: useCallback((id: string) => previews.current.get(id), []),
   };
 }

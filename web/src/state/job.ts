@@ -3,10 +3,10 @@
 import { useEffect, useState } from 'preact/hooks';
 
 import { isOver, watchJob } from '../api/events.ts';
-import { sentenceOf } from '../api/failure.ts';
+import { Failure, sentenceOf } from '../api/failure.ts';
 import type { JobState } from '../api/types.ts';
 
-export interface Followed<T> {
+interface Followed<T> {
   thing?: T; // as last fetched: when it was found, and at its end
   job?: JobState; // as last told
   trouble?: string; // the server does not answer, or knows of no such thing
@@ -35,6 +35,7 @@ export function useJob<T extends { job: JobState }>(id: string | null, source: S
         return thing.job;
       } catch (error) {
         const trouble = sentenceOf(error);
+        if (error instanceof Failure && error.kind === 'not_found') stop();
         if (wanted) setFollowed((before) => ({ ...(before.id === id ? before : {}), trouble, id }));
         return undefined;
       }

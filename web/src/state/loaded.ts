@@ -2,7 +2,7 @@
 
 import { useEffect, useState } from 'preact/hooks';
 
-export interface Loaded<T> {
+interface Loaded<T> {
   value?: T;
   error?: unknown;
 }

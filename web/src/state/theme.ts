@@ -2,7 +2,7 @@
 
 import { useEffect, useState } from 'preact/hooks';
 
-export type Theme = 'dark' | 'light';
+type Theme = 'dark' | 'light';
 
 const prefersDark = matchMedia('(prefers-color-scheme: dark)');
 

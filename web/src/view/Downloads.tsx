@@ -1,8 +1,9 @@
 // Everything that was written, what most people want first.
 
 import { addressOf } from '../api/client.ts';
-import type { DoneEstimate, OutputFile } from '../api/types.ts';
+import type { DoneEstimate } from '../api/types.ts';
 import { fileSize, stem } from './format.ts';
+import { FileList } from './parts/FileList.tsx';
 
 interface Entry {
   path: string;
@@ -38,29 +39,22 @@ export function Downloads({ estimate }: { estimate: DoneEstimate }) {
         </li>
         {first.map(({ file, text }) => (
           <li key={file.path}>
-            <a class="button" href={addressOf.file(id, file.path)} download={fileName(name, file)}>
+            <a class="button" href={addressOf.file(id, file.path)} download={fileName(name, file.path)}>
               {text} <span class="fine">{fileSize(file.bytes)}</span>
             </a>
           </li>
         ))}
       </ul>
-      <details class="files">
-        <summary>All files</summary>
-        <ul>
-          {files.map((file) => (
-            <li key={file.path}>
-              <a href={addressOf.file(id, file.path)} download={fileName(name, file)}>
-                {file.path}
-              </a>{' '}
-              <span class="fine">{fileSize(file.bytes)}</span>
-            </li>
-          ))}
-        </ul>
-      </details>
+      <FileList
+        summary="All files"
+        files={files}
+        addressOf={(path) => addressOf.file(id, path)}
+        nameOf={(path) => fileName(name, path)}
+      />
     </section>
   );
 }
 
-function fileName(name: string, { path }: OutputFile): string {
+function fileName(name: string, path: string): string {
   return `${name}-${path.replaceAll('/', '-')}`;
 }

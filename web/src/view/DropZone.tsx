@@ -7,7 +7,7 @@ import { CameraDialog } from './CameraDialog.tsx';
 import { LitBall } from './LitBall.tsx';
 import { Alert } from './parts/Alert.tsx';
 
-export const photoTypes = 'image/*,.heic,.heif,.exr,.hdr,.tif,.tiff';
+const photoTypes = 'image/*,.heic,.heif,.exr,.hdr,.tif,.tiff';
 
 export function DropZone({ intake, dragging }: { intake: Intake; dragging: boolean }) {
   const file = useRef<HTMLInputElement>(null);

@@ -1,5 +1,6 @@
-// One estimate: at work, failed, or done and to be looked at.
+// One estimate: at work, failed, or done and to be looked at. Children come last.
 
+import type { ComponentChildren } from 'preact';
 import { useEffect } from 'preact/hooks';
 
 import { addressOf, getEstimate } from '../api/client.ts';
@@ -16,9 +17,10 @@ interface Props {
   onName(name: string): void;
   onEnd(): void;
   onNew(): void;
+  children: ComponentChildren;
 }
 
-export function EstimatePage({ id, info, preview, onName, onEnd, onNew }: Props) {
+export function EstimatePage({ id, info, preview, onName, onEnd, onNew, children }: Props) {
   const {
     thing: estimate,
     job,
@@ -37,25 +39,30 @@ export function EstimatePage({ id, info, preview, onName, onEnd, onNew }: Props)
     return (
       <>
         <Alert sentence={trouble} />
-        <Workbench estimate={estimate} info={info} />
+        <Workbench estimate={estimate} info={info}>
+          {children}
+        </Workbench>
       </>
     );
   }
   return (
-    <div class="waiting">
-      <WaitingPhoto
-        source={preview ?? (hasPhoto(job) ? addressOf.photo(id) : undefined)}
-        name={name}
-        working={!failed}
-      />
-      {!failed && !trouble && <JobProgress job={job} label="Estimating the light" />}
-      <Alert sentence={trouble ?? job?.error?.message} />
-      {(failed || trouble) && (
-        <button type="button" class="primary" onClick={onNew}>
-          Choose another photo
-        </button>
-      )}
-    </div>
+    <>
+      <div class="waiting">
+        <WaitingPhoto
+          source={preview ?? (hasPhoto(job) ? addressOf.photo(id) : undefined)}
+          name={name}
+          working={!failed}
+        />
+        {!failed && !trouble && <JobProgress job={job} label="Estimating the light" />}
+        <Alert sentence={trouble ?? job?.error?.message} />
+        {(failed || trouble) && (
+          <button type="button" class="primary" onClick={onNew}>
+            Choose another photo
+          </button>
+        )}
+      </div>
+      {children}
+    </>
   );
 }
 

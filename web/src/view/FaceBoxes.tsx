@@ -1,7 +1,9 @@
 // The faces that were found. Several can be chosen from; one is only shown.
 
-import type { DoneEstimate, Face } from '../api/types.ts';
+import type { DoneEstimate } from '../api/types.ts';
+import { boxOf } from '../light/box.ts';
 import type { Chosen, Subject } from '../state/workbench.ts';
+import { placed } from './format.ts';
 
 interface Props {
   estimate: DoneEstimate;
@@ -11,7 +13,7 @@ interface Props {
 
 export function FaceBoxes({ estimate, subject, onChoose }: Props) {
   const { faces, photo } = estimate;
-  if (faces.length === 1) return <div class="face-box" style={placeOf(faces[0]!, photo)} />;
+  if (faces.length === 1) return <div class="face-box" style={placed(boxOf(faces[0]!.box_px, photo))} />;
   return (
     <div role="group" aria-label="Faces in the photo">
       {faces.map((face, index) => (
@@ -19,7 +21,7 @@ export function FaceBoxes({ estimate, subject, onChoose }: Props) {
           key={index}
           type="button"
           class="face-box"
-          style={placeOf(face, photo)}
+          style={placed(boxOf(face.box_px, photo))}
           aria-pressed={subject.chosen === index}
           aria-label={`Face ${index + 1} of ${faces.length}`}
           onClick={() => onChoose(index)}
@@ -29,14 +31,4 @@ export function FaceBoxes({ estimate, subject, onChoose }: Props) {
       ))}
     </div>
   );
-}
-
-function placeOf({ box_px: [x, y, width, height] }: Face, photo: DoneEstimate['photo']) {
-  const share = (part: number, whole: number) => `${(100 * part) / whole}%`;
-  return {
-    left: share(x, photo.width_px),
-    top: share(y, photo.height_px),
-    width: share(width, photo.width_px),
-    height: share(height, photo.height_px),
-  };
 }

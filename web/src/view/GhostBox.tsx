@@ -1,40 +1,35 @@
 // Where the thing will stand, for browsers that cannot draw it: its outline, to be moved like the thing itself.
+// Or the outline alone, while they cannot.
 
 import { useCallback, useRef } from 'preact/hooks';
 
 import type { DoneEstimate } from '../api/types.ts';
-import { outlineOf, type Outline } from '../light/placement.ts';
+import { holds } from '../light/box.ts';
+import { outlineOf } from '../light/placement.ts';
 import type { PlacedObject } from '../state/object.ts';
+import { placed } from './format.ts';
 import { useHandling } from './handling.ts';
 
 export function GhostBox({ estimate, object }: { estimate: DoneEstimate; object: PlacedObject }) {
   const field = useRef<HTMLDivElement>(null);
-  const outline = outlineOf(object.placement, object.size, object.camera);
-  const latest = useRef(outline);
-  latest.current = outline;
-  const hits = useCallback((x: number, y: number) => inside(latest.current, x, y), []);
+  const latest = useRef(object);
+  latest.current = object;
+  const hits = useCallback((x: number, y: number) => {
+    const { placement, size, camera } = latest.current;
+    return holds(outlineOf(placement, size, camera), x, y);
+  }, []);
   const handling = useHandling(field, estimate, object, hits);
   return (
     <div ref={field} class="fill" {...handling}>
-      <div
-        class="ghost"
-        style={{
-          left: percentage(outline.left),
-          top: percentage(outline.top),
-          width: percentage(outline.width),
-          height: percentage(outline.height),
-        }}
-      >
-        {object.name}
-      </div>
+      <Ghost object={object} />
     </div>
   );
 }
 
-function inside({ left, top, width, height }: Outline, x: number, y: number): boolean {
-  return x >= left && x <= left + width && y >= top && y <= top + height;
-}
-
-function percentage(share: number): string {
-  return `${100 * share}%`;
+export function Ghost({ object }: { object: PlacedObject }) {
+  return (
+    <div class="ghost" style={placed(outlineOf(object.placement, object.size, object.camera))}>
+      {object.name}
+    </div>
+  );
 }

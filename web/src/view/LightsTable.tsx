@@ -1,6 +1,7 @@
 import type { MainLight } from '../api/types.ts';
-import { directionInWords, swatchOf, warmthInWords } from '../light/words.ts';
+import { directionInWords } from '../light/words.ts';
 import { degrees, percent } from './format.ts';
+import { LightColour } from './parts/LightColour.tsx';
 
 export function LightsTable({ lights }: { lights: MainLight[] }) {
   if (lights.length === 0) return <p>No single light stands out: it comes from all around.</p>;
@@ -32,13 +33,10 @@ export function LightsTable({ lights }: { lights: MainLight[] }) {
               {directionInWords(light.azimuth_deg, light.elevation_deg)}
               <span class="fine">
                 {' '}
-                azimuth {degrees(light.azimuth_deg)}, elevation {degrees(light.elevation_deg)}
+                azimuth&nbsp;{degrees(light.azimuth_deg)}, elevation&nbsp;{degrees(light.elevation_deg)}
               </span>
             </td>
-            <td class="colour">
-              <span class="swatch" style={{ background: swatchOf(light.colour_rgb) }} aria-hidden="true" />
-              {warmthInWords(light.colour_rgb)}
-            </td>
+            <LightColour rgb={light.colour_rgb} />
             <td class="number">{light.irradiance.toFixed(2)}</td>
             <td class="number">{percent(light.share_of_energy)}</td>
           </tr>

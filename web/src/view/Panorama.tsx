@@ -7,9 +7,10 @@ import { sentenceOf } from '../api/failure.ts';
 import type { DoneEstimate, MainLight } from '../api/types.ts';
 import { developed, fittingStops } from '../light/exposure.ts';
 import { uvOfAngles, type RadianceMap } from '../light/radiance_map.ts';
+import { within } from '../light/within.ts';
 import { useLoaded } from '../state/loaded.ts';
 import { pathIn, type Subject } from '../state/workbench.ts';
-import { stops } from './format.ts';
+import { percentage, stops } from './format.ts';
 import { Alert } from './parts/Alert.tsx';
 import { Check } from './parts/Check.tsx';
 import { Slider } from './parts/Slider.tsx';
@@ -99,7 +100,7 @@ function DoubtCanvas({ confidence }: { confidence: RadianceMap }) {
         const stripe = (x + y) % 12 < 3;
         const at = 4 * (y * width + x);
         pixels.data.fill(stripe ? 255 : 0, at, at + 3);
-        pixels.data[at + 3] = 255 * Math.max(0, Math.min(1, doubt)) * (stripe ? 0.55 : 0.45);
+        pixels.data[at + 3] = 255 * within(doubt, 0, 1) * (stripe ? 0.55 : 0.45);
       }
     }
     canvas.current!.getContext('2d')!.putImageData(pixels, 0, 0);
@@ -110,7 +111,7 @@ function DoubtCanvas({ confidence }: { confidence: RadianceMap }) {
 function Marker({ number, light }: { number: number; light: MainLight }) {
   const [u, v] = uvOfAngles(light.azimuth_deg, light.elevation_deg);
   return (
-    <span class="marker" style={{ left: `${100 * u}%`, top: `${100 * v}%` }} aria-hidden="true">
+    <span class="marker" style={{ left: percentage(u), top: percentage(v) }} aria-hidden="true">
       {number}
     </span>
   );

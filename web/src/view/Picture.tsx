@@ -7,7 +7,7 @@ import type { PlacedObject } from '../state/object.ts';
 import type { Chosen, Shown, Subject } from '../state/workbench.ts';
 import { FaceBoxes } from './FaceBoxes.tsx';
 import { GhostBox } from './GhostBox.tsx';
-import { MeshPoints } from './MeshPoints.tsx';
+import { MeshLines } from './MeshLines.tsx';
 import { Check } from './parts/Check.tsx';
 import { Choice } from './parts/Choice.tsx';
 import { StageCanvas } from './StageCanvas.tsx';
@@ -59,7 +59,7 @@ export function Picture(props: Props) {
             alt="The photo with the object, rendered"
           />
         )}
-        {shown.mesh && <MeshPoints estimate={estimate} />}
+        {shown.mesh && <MeshLines estimate={estimate} />}
         {shown.faces && <FaceBoxes estimate={estimate} subject={props.subject} onChoose={props.onChoose} />}
       </div>
       <div class="picture-bar inline-legends">
@@ -67,7 +67,7 @@ export function Picture(props: Props) {
         <div class="checks">
           <Check label="Object" checked={shown.object} onChange={(object) => onShown({ object })} />
           <Check label="Faces" checked={shown.faces} onChange={(faces) => onShown({ faces })} />
-          <Check label="Mesh points" checked={shown.mesh} onChange={(mesh) => onShown({ mesh })} />
+          <Check label="Face mesh" checked={shown.mesh} onChange={(mesh) => onShown({ mesh })} />
         </div>
       </div>
     </section>

@@ -3,13 +3,14 @@
 import { useState } from 'preact/hooks';
 
 import { addressOf } from '../api/client.ts';
-import type { DoneEstimate, Insertion } from '../api/types.ts';
+import type { DoneEstimate } from '../api/types.ts';
 import { requestFor, type PlacedObject } from '../state/object.ts';
 import type { Rendering } from '../state/rendering.ts';
 import type { Chosen } from '../state/workbench.ts';
-import { fileSize, stem } from './format.ts';
+import { stem } from './format.ts';
 import { Alert } from './parts/Alert.tsx';
 import { Choice } from './parts/Choice.tsx';
+import { FileList } from './parts/FileList.tsx';
 import { JobProgress } from './parts/JobProgress.tsx';
 
 interface Props {
@@ -28,6 +29,7 @@ const qualities = [
 
 export function RenderControl({ estimate, light, object, rendering }: Props) {
   const [quality, setQuality] = useState<Quality>('preview');
+  const { done } = rendering;
   return (
     <div class="render">
       <div class="render-row inline-legends">
@@ -38,47 +40,38 @@ export function RenderControl({ estimate, light, object, rendering }: Props) {
             What you drag is a preview. Render traces the light for real, with the photo’s blur and grain.
           </p>
         )}
-        <Choice<Quality> label="Quality" options={qualities} value={quality} onChange={setQuality} />
-        {rendering.job ? (
-          <button type="button" onClick={rendering.cancel}>
-            Cancel
-          </button>
-        ) : (
-          <>
-            <button type="button" onClick={object.reset}>
-              Put it back
+        <div class="render-buttons">
+          <Choice<Quality> label="Quality" options={qualities} value={quality} onChange={setQuality} />
+          {rendering.job ? (
+            <button type="button" onClick={rendering.cancel}>
+              Cancel
             </button>
-            <button
-              type="button"
-              class="primary"
-              disabled={!object.model}
-              onClick={() => void rendering.start(requestFor(object, light, quality))}
-            >
-              Render
-            </button>
-          </>
-        )}
+          ) : (
+            <>
+              <button type="button" onClick={object.reset}>
+                Put it back
+              </button>
+              <button
+                type="button"
+                class="primary"
+                disabled={!object.model}
+                onClick={() => void rendering.start(requestFor(object, light, quality))}
+              >
+                Render
+              </button>
+            </>
+          )}
+        </div>
       </div>
       <Alert sentence={rendering.trouble} />
-      {rendering.done && <Rendered insertion={rendering.done} name={`${stem(estimate.name)}-${object.name}`} />}
+      {done && (
+        <FileList
+          summary="Rendered files"
+          files={done.files ?? []}
+          addressOf={(path) => addressOf.insertionFile(done.id, path)}
+          nameOf={(path) => `${stem(estimate.name)}-${object.name}-${path}`}
+        />
+      )}
     </div>
-  );
-}
-
-function Rendered({ insertion, name }: { insertion: Insertion; name: string }) {
-  return (
-    <details class="files">
-      <summary>Rendered files</summary>
-      <ul>
-        {(insertion.files ?? []).map(({ path, bytes }) => (
-          <li key={path}>
-            <a href={addressOf.insertionFile(insertion.id, path)} download={`${name}-${path}`}>
-              {path}
-            </a>{' '}
-            <span class="fine">{fileSize(bytes)}</span>
-          </li>
-        ))}
-      </ul>
-    </details>
   );
 }

@@ -3,8 +3,9 @@
 import { addressOf } from '../api/client.ts';
 import type { DoneEstimate, Lamp, Room } from '../api/types.ts';
 import { anglesOf } from '../light/radiance_map.ts';
-import { directionInWords, placeInWords, swatchOf, warmthInWords } from '../light/words.ts';
+import { directionInWords, placeInWords } from '../light/words.ts';
 import { metres } from './format.ts';
+import { LightColour } from './parts/LightColour.tsx';
 
 export function RoomPanel({ estimate, room }: { estimate: DoneEstimate; room: Room }) {
   return (
@@ -39,10 +40,7 @@ export function RoomPanel({ estimate, room }: { estimate: DoneEstimate; room: Ro
                   <span class="light-number">{index + 1}</span>
                 </th>
                 <td>{placeOf(lamp)}</td>
-                <td class="colour">
-                  <span class="swatch" style={{ background: swatchOf(lamp.colour_rgb) }} aria-hidden="true" />
-                  {warmthInWords(lamp.colour_rgb)}
-                </td>
+                <LightColour rgb={lamp.colour_rgb} />
                 <td class="number">{(lamp.intensity ?? lamp.irradiance ?? 0).toFixed(2)}</td>
                 <td>{lamp.seen_by.map(({ face }) => face).join(', ')}</td>
               </tr>

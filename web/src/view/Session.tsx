@@ -24,13 +24,25 @@ export function Session({ info, shown, go, onName }: Props) {
     history.refresh();
   });
   const dragging = useIncomingPhotos(intake);
+  const strip = (
+    <HistoryStrip
+      history={history}
+      intake={intake}
+      shown={shown}
+      onPick={go}
+      onRemoved={(id) => id === shown && go(null)}
+    />
+  );
   return (
     <div class="session" data-dragging={dragging}>
       {shown === null ? (
-        <div class="start">
-          <DropZone intake={intake} dragging={dragging} />
-          <Samples samples={info?.samples ?? []} intake={intake} />
-        </div>
+        <>
+          <div class="start">
+            <DropZone intake={intake} dragging={dragging} />
+            <Samples samples={info?.samples ?? []} intake={intake} />
+          </div>
+          {strip}
+        </>
       ) : (
         <>
           <Alert sentence={intake.trouble} />
@@ -42,16 +54,11 @@ export function Session({ info, shown, go, onName }: Props) {
             onName={onName}
             onEnd={history.refresh}
             onNew={() => go(null)}
-          />
+          >
+            {strip}
+          </EstimatePage>
         </>
       )}
-      <HistoryStrip
-        history={history}
-        intake={intake}
-        shown={shown}
-        onPick={go}
-        onRemoved={(id) => id === shown && go(null)}
-      />
     </div>
   );
 }

@@ -8,6 +8,7 @@ import type { DoneEstimate, Info } from '../api/types.ts';
 import type { Stage } from '../stage/stage.ts';
 import { materialOf, type PlacedObject } from '../state/object.ts';
 import { pathIn, type Subject } from '../state/workbench.ts';
+import { Ghost } from './GhostBox.tsx';
 import { useHandling } from './handling.ts';
 
 interface Props {
@@ -22,6 +23,7 @@ export function StageCanvas({ estimate, info, subject, object, onTrouble }: Prop
   const canvas = useRef<HTMLCanvasElement>(null);
   const [stage, setStage] = useState<Stage>();
   const [lit, setLit] = useState(false);
+  const [lost, setLost] = useState(false);
 
   useEffect(() => {
     let wanted = true;
@@ -29,7 +31,7 @@ export function StageCanvas({ estimate, info, subject, object, onTrouble }: Prop
     const make = async () => {
       const [{ Stage }, photo] = await Promise.all([import('../stage/stage.ts'), loadedPhoto(estimate.id)]);
       if (!wanted) return;
-      made = new Stage(canvas.current!, { camera: object.camera, up: estimate.up_cam, photo });
+      made = new Stage(canvas.current!, { camera: object.camera, up: estimate.up_cam, photo }, setLost);
       setStage(made);
     };
     make().catch((error: unknown) => wanted && onTrouble(sentenceOf(error)));
@@ -73,14 +75,26 @@ export function StageCanvas({ estimate, info, subject, object, onTrouble }: Prop
 
   const hits = useCallback((x: number, y: number) => stage?.hits(x, y) ?? false, [stage]);
   const handling = useHandling(canvas, estimate, object, stage && hits);
+  const drawn = lit && !lost;
   return (
-    <canvas
-      ref={canvas}
-      class="stage fill"
-      data-lit={lit}
-      data-ready={lit && object.model !== undefined}
-      {...handling}
-    />
+    <>
+      <canvas
+        ref={canvas}
+        class="stage fill"
+        data-lit={drawn}
+        data-ready={drawn && object.model !== undefined}
+        {...handling}
+      />
+      {lost && <Ghost object={object} />}
+      <div class="stage-lost" role="status">
+        {lost && (
+          <p>
+            The browser has taken the graphics from the 3D view. The object shows as an outline until it gives them
+            back; if that takes long, reload the page.
+          </p>
+        )}
+      </div>
+    </>
   );
 }
 

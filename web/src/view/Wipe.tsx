@@ -2,20 +2,35 @@
 
 import { useState } from 'preact/hooks';
 
-import { percent } from './format.ts';
+import { rightOf, whole, type Box } from '../light/box.ts';
+import { percent, percentage, placed } from './format.ts';
 
-interface Side {
+export interface Side {
   source: string;
   text: string;
+  place?: Box; // in shares of the frame, else the whole of it
 }
 
-export function Wipe({ left, right }: { left: Side; right: Side }) {
+interface Props {
+  aspect: number;
+  left: Side;
+  right: Side;
+}
+
+export function Wipe({ aspect, left, right }: Props) {
   const [share, setShare] = useState(0.5);
+  const places = { left: left.place ?? whole, right: right.place ?? whole };
+  const hidden = rightOf(share, places.left);
   return (
-    <figure class="wipe" style={{ '--share': percentage(share) }}>
-      <div class="wipe-frame">
-        <img src={right.source} alt={right.text} />
-        <img class="fill wipe-left" src={left.source} alt={left.text} />
+    <figure class="wipe">
+      <div class="wipe-frame" style={{ '--aspect': String(aspect), '--share': percentage(share) }}>
+        <img style={placed(places.right)} src={right.source} alt={right.text} />
+        <img
+          class="wipe-left"
+          style={{ ...placed(places.left), clipPath: `inset(0 ${percentage(hidden)} 0 0)` }}
+          src={left.source}
+          alt={left.text}
+        />
         {/* Covers the pictures, so that they can be wiped where they are; shown is the line. */}
         <input
           type="range"
@@ -36,8 +51,4 @@ export function Wipe({ left, right }: { left: Side; right: Side }) {
       </figcaption>
     </figure>
   );
-}
-
-function percentage(share: number): string {
-  return `${100 * share}%`;
 }

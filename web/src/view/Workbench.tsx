@@ -1,5 +1,6 @@
-// A done estimate: the photo with a thing in it, its light, its layers, its files.
+// A done estimate: the photo with a thing in it, its light, its layers, its files. Children come last.
 
+import type { ComponentChildren } from 'preact';
 import { useEffect, useState } from 'preact/hooks';
 
 import type { DoneEstimate, Info } from '../api/types.ts';
@@ -17,7 +18,13 @@ import { RoomPanel } from './RoomPanel.tsx';
 const noWebGl =
   'This browser has no WebGL, so the object shows as an outline; it can be moved and rendered all the same.';
 
-export function Workbench({ estimate, info }: { estimate: DoneEstimate; info: Info | undefined }) {
+interface Props {
+  estimate: DoneEstimate;
+  info: Info | undefined;
+  children: ComponentChildren;
+}
+
+export function Workbench({ estimate, info, children }: Props) {
   const [chosen, choose] = useState<Chosen>(estimate.largest_face);
   const [shown, show] = useShown();
   const [kind, setKind] = useState<PictureKind>('preview');
@@ -57,9 +64,10 @@ export function Workbench({ estimate, info }: { estimate: DoneEstimate; info: In
       <div class="bench-light">
         <LightPanel estimate={estimate} subject={subject} onChoose={choose} />
         <LayersPanel estimate={estimate} subject={subject} />
-        <Downloads estimate={estimate} />
       </div>
       {estimate.room && <RoomPanel estimate={estimate} room={estimate.room} />}
+      <Downloads estimate={estimate} />
+      {children}
     </div>
   );
 }

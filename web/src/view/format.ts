@@ -1,4 +1,6 @@
-// Numbers for people; none is torn from its unit at the end of a line.
+// Numbers for people; none is torn from its unit at the end of a line. And boxes for CSS.
+
+import type { Box } from '../light/box.ts';
 
 const space = '\u00a0';
 
@@ -13,6 +15,15 @@ export function fileSize(bytes: number): string {
 
 export function percent(share: number): string {
   return `${Math.round(100 * share)}${space}%`;
+}
+
+// For CSS.
+export function percentage(share: number): string {
+  return `${100 * share}%`;
+}
+
+export function placed({ left, top, width, height }: Box) {
+  return { left: percentage(left), top: percentage(top), width: percentage(width), height: percentage(height) };
 }
 
 // With a real minus sign.

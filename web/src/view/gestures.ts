@@ -1,7 +1,7 @@
 // Pointer, touch and wheel on the thing in the picture. What happens beside it is left to the page: scrolling, and the buttons
 // of the faces, even where the thing is in front of them.
 
-export interface Handlers {
+interface Handlers {
   hits(x: number, y: number): boolean; // shares of width and height, from the top left
   move(dx: number, dy: number): void;
   away(factor: number): void;
