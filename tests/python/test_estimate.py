@@ -118,6 +118,20 @@ class Estimate(InFolder):
         self.assertEqual(estimate.faces[0].environment.width, 64)
         self.assertEqual(max(estimate.faces[0].picture.shape), 128)
 
+    def test_one_light_for_the_photos_of_a_burst(self):
+        estimator = fp.Estimator(deterministic=True)
+        bright = portrait_light()
+        one, other = estimator.estimate(bright), estimator.estimate(np.ascontiguousarray(0.5 * bright))
+        joint = estimator.joint([one, other])
+        # The same face at half the exposure: what it says of directions is the same, and the level lies between the two.
+        means = [float(e.to_numpy().mean()) for e in (other.faces[0].environment, joint.environment, one.faces[0].environment)]
+        self.assertLess(means[0], means[1])
+        self.assertLess(means[1], means[2])
+        alone, together = (light.lights[0].direction for light in (one.faces[0], joint))
+        self.assertGreater(float(np.dot(alone, together)), np.cos(np.radians(10)))  # the prior sees twice the patches
+        with self.assertRaisesRegex(fp.UsageError, "no estimate"):
+            estimator.joint([])
+
     def test_landmarks_stand_in_for_detection(self):
         points = portrait().faces[0].landmarks[[468 // 2, 0, 1, 2, 3], :2]  # any five that are no face's
         with self.assertRaises(TypeError):

@@ -38,7 +38,7 @@ export async function expectAccessible(page: Page, info: TestInfo, state: string
     await keepPicture(page, info, `${state}-${theme}`);
   }
   await page.setViewportSize(narrow);
-  expect(await sidewaysOf(page), `${state}, ${narrow.width} px wide`).toEqual([]);
   await keepPicture(page, info, `${state}-narrow`);
+  expect(await sidewaysOf(page), `${state}, ${narrow.width} px wide`).toEqual([]);
   await page.setViewportSize(wide);
 }

@@ -30,7 +30,7 @@ focal_px: focal length in pixels of the photo; else from EXIF, else a 50 mm lens
 landmarks: float32 (5, 2) or (68, 2), or as many pairs of numbers, in pixels, of one face, instead of detection.
 threads: 0 = all.
 deterministic: bitwise the same result for any number of threads.
-device: "auto", "cpu" or "cuda[:N]".
+device: "auto" or "cpu"; "cuda[:N]" raises DeviceError in this version.
 
 Raises NoFaceError, InputError, UsageError, ModelError, DeviceError.)";
 
@@ -50,6 +50,18 @@ LayersPtr separate_with(const TurnTaker& estimator, const py::object& photo) {
   PhotoSource source(photo);
   const py::gil_scoped_release release;
   return std::make_shared<highlight::Layers>(estimator.separate(std::move(source).load()));
+}
+
+std::shared_ptr<pipeline::LightResult> joint_with(const TurnTaker& estimator,
+                                                  const std::vector<EstimatedPtr>& estimates) {
+  const py::gil_scoped_release release;
+  std::vector<pipeline::FaceEvidence> faces;
+  for (const EstimatedPtr& one : estimates) {
+    if (!one) throw Error(ExitCode::kUsage, "One of the estimates is None.");
+    for (const pipeline::FaceEstimate& face : one->estimate.faces) faces.push_back(pipeline::evidence_of(face));
+  }
+  if (faces.empty()) throw Error(ExitCode::kUsage, "There is no estimate to join; give at least one.");
+  return std::make_shared<pipeline::LightResult>(estimator.joint(faces));
 }
 
 EstimatedPtr estimate(const py::object& photo, EstimateOptions options) {
@@ -176,7 +188,12 @@ photo: a path; or uint8 (H, W, 3), sRGB; or float32 (H, W, 3), linear Rec.709, 1
   });
   estimator.def("estimate", &estimate_with, py::arg("photo"), of_estimate.c_str())
       .def("separate", &separate_with, py::arg("photo"),
-           ("Highlight and diffuse layer of a photo at its own size, as Layers.\n" + photo).c_str());
+           ("Highlight and diffuse layer of a photo at its own size, as Layers.\n" + photo).c_str())
+      .def("joint", &joint_with, py::arg("estimates"),
+           R"(One distant LightResult for the faces of several photos, as `faceprobe estimate --same-light`.
+
+estimates: of photos that one camera took from one place in the same light, such as a burst. Each face is first scaled to
+    the mean energy of the single estimates, because photos tell neither albedos nor exposures. Raises UsageError for none.)");
 }
 
 }  // namespace faceprobe::python

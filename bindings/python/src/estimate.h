@@ -36,6 +36,10 @@ class TurnTaker {
     const std::lock_guard<std::mutex> turn(mutex_);
     return estimator_.separate(photo);
   }
+  pipeline::LightResult joint(const std::vector<pipeline::FaceEvidence>& faces) const {
+    const std::lock_guard<std::mutex> turn(mutex_);
+    return estimator_.joint(faces);
+  }
 
  private:
   pipeline::Estimator estimator_;

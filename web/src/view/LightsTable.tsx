@@ -33,7 +33,7 @@ export function LightsTable({ lights }: { lights: MainLight[] }) {
               {directionInWords(light.azimuth_deg, light.elevation_deg)}
               <span class="fine">
                 {' '}
-                azimuth&nbsp;{degrees(light.azimuth_deg)}, elevation&nbsp;{degrees(light.elevation_deg)}
+                azimuth {degrees(light.azimuth_deg)}, elevation {degrees(light.elevation_deg)}
               </span>
             </td>
             <LightColour rgb={light.colour_rgb} />
