@@ -1,5 +1,7 @@
 #include "serve/events.h"
 
+#include <httplib.h>
+
 #include <string>
 #include <thread>
 #include <utility>

@@ -9,11 +9,13 @@
 
 #include "serve/job.h"
 
-#include <httplib.h>
-
 #include <atomic>
 #include <chrono>
 #include <memory>
+
+namespace httplib {
+struct Response;
+}
 
 namespace faceprobe::serve {
 
@@ -22,8 +24,6 @@ class EventStreams {
   // Streams end when `closing` is set, when their job ends, and after `longest`.
   EventStreams(int most, std::chrono::milliseconds longest, const std::atomic<bool>& closing)
       : most_(most), longest_(longest), closing_(closing) {}
-  EventStreams(const EventStreams&) = delete;
-  EventStreams& operator=(const EventStreams&) = delete;
 
   // `record` is held as long as somebody listens; `job` is a part of it. Throws Refusal(kBusy) when too many listen already. Must outlive the
   // responses.
