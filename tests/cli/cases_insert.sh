@@ -133,5 +133,5 @@ case_relight() {
   expect_exit 0 estimate "$photo" "${quick[@]}" -o light.exr
   expect_refused 2 "dim is for" relight "$photo" "${quick[@]}" --dim 1 --map light.exr -o both.png
   expect_refused 3 "no_such_map.exr" relight "$photo" "${quick[@]}" --map no_such_map.exr -o lost.png
-  expect_files "$work" stdout stderr dimmed.png light.exr number
+  expect_files "$work" stdout stderr dimmed.png light.exr number json
 }

@@ -183,7 +183,7 @@ case_completion_in_bash() {
     expect_completed "--count" synth --heads sub such.jpg --c
     expect_completed "default paper" synth --mode ""
   fi
-  if grep -q '^  eval ' "$work/stdout"; then expect_completed "relight" eval --samples 3 re; fi
+  if grep -q '^  eval ' "$work/stdout"; then expect_completed "relight results" eval --samples 3 re; fi
 }
 
 case_completion_in_zsh_and_fish() {
