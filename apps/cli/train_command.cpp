@@ -38,8 +38,7 @@ std::string config_text(const std::string& path) {
 
 // What the trainers of light do not know would be passed over in silence.
 void refuse_options_of_highlight(const Options& options) {
-  const std::pair<bool, const char*> given[] = {
-      {options.device != "auto", "--device"}, {options.json, "--json"}, {options.run.repeat_batch, "--repeat-batch"}};
+  const std::pair<bool, const char*> given[] = {{options.device != "auto", "--device"}, {options.json, "--json"}};
   for (const auto& [is_given, name] : given) {
     if (is_given)
       throw Error(ExitCode::kUsage, "train " + options.net + " takes no " + name + "; highlight and face do.");
