@@ -1,6 +1,7 @@
 # `faceprobe eval paper`: the whole evaluation as a report.
 
 case_eval_paper() {
+  local limit_s=200  # a score of estimators, each with its models, and twice all of it
   expect_refused 3 "faces/ict_facekit" eval paper --data nowhere -o report
   [ ! -e report/report.html ] || fail "a report of nothing"
   expect_refused 2 "stage" eval

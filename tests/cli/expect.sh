@@ -6,11 +6,11 @@ fail() {
   exit 1
 }
 
-# expect_exit CODE ARGUMENT...   runs the command; its output is in $work/stdout and $work/stderr.
+# expect_exit CODE ARGUMENT...   runs the command, limit_s (60) seconds at most; its output is in $work/stdout and $work/stderr.
 expect_exit() {
   local wanted=$1 found=0
   shift
-  timeout 60 "$faceprobe" "$@" >"$work/stdout" 2>"$work/stderr" </dev/null || found=$?
+  timeout "${limit_s:-60}" "$faceprobe" "$@" >"$work/stdout" 2>"$work/stderr" </dev/null || found=$?
   [ "$found" = "$wanted" ] || fail "exit $found instead of $wanted: faceprobe $*"
 }
 
