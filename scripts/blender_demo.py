@@ -25,6 +25,7 @@ monkey.data.materials.append(plastic)
 scene.camera.location = (0, -6, 0)
 scene.camera.rotation_euler = (math.radians(90), 0, 0)
 scene.view_settings.view_transform = "Standard"  # colours as the map has them
+scene.view_settings.exposure = -0.6  # stops: plastic is whiter than the skin that the photo was exposed for
 scene.render.engine = "CYCLES"
 scene.cycles.samples = 64
 scene.cycles.use_denoising = False  # Debian's Blender is built without
