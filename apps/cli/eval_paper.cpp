@@ -3,6 +3,7 @@
 #include "faceprobe/core/error.h"
 #include "faceprobe/core/version.h"
 #include "faceprobe/io/atomic_file.h"
+#include "faceprobe/synth/shard.h"
 #include "paper/plan.h"
 #include "paper/print_pdf.h"
 #include "paper/section_cache.h"
@@ -10,6 +11,7 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <iterator>
@@ -74,12 +76,15 @@ void require_data(const PaperPlan& plan) {
 
 // What was measured, without anybody's folders.
 std::string made_with(const PaperPlan& plan) {
+  const auto of = [](const std::filesystem::path& faces, int wanted) {
+    return std::min(wanted, synth::ShardReader(faces).sample_count());
+  };
   return fmt::format(
       "Faceprobe {}. {} photos for highlights, {} for light, {} groups; synthetic faces of people, skins and lights "
       "that no network was "
       "trained on, photos and HDR maps as docs/data.md names them.{}",
-      kVersion, plan.highlight_photos(), plan.light_photos(), plan.group_photos(),
-      plan.quick ? " A quick run: too few photos to compare methods by." : "");
+      kVersion, of(plan.faces, plan.highlight_photos()), of(plan.light, plan.light_photos()),
+      of(plan.groups, plan.group_photos()), plan.quick ? " A quick run: too few photos to compare methods by." : "");
 }
 
 int run(PaperPlan plan) {
