@@ -1,6 +1,5 @@
 #include "eval_results.h"
 
-#include "faceprobe/io/atomic_file.h"
 #include "faceprobe/io/data_files.h"
 #include "paper/headlines.h"
 
