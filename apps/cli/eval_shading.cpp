@@ -43,7 +43,7 @@ eval::ShadingMethod by_region(const std::string& name, const std::shared_ptr<net
             std::replace_if(
                 skin.values().begin(), skin.values().end(), [](std::uint8_t r) { return r > kSkinRegionCount; },
                 std::uint8_t{0});
-            const lighting::AlbedoModel model = lighting::fit_albedo(diffuse, skin, input.clip);
+            const lighting::AlbedoModel model = lighting::fit_albedo(diffuse, skin, input.clip, input.mesh_normal_cam);
             Image albedo = lighting::albedo_picture(model, skin);
             Image shading = quotient(diffuse, albedo);
             return eval::ShadingEstimate{std::move(albedo), std::move(shading)};

@@ -1,10 +1,12 @@
 #include "faceprobe/lighting/albedo.h"
 
 #include "faceprobe/core/color.h"
+#include "lighting/region_luminance.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <vector>
 
 namespace faceprobe::lighting {
 
@@ -14,8 +16,7 @@ namespace {
 const Eigen::Array2d kSkinLogRatio(std::log(2.2), std::log(0.60));  // mean of log(r/g), log(b/g)
 constexpr double kSkinSigma = 0.20;                                 // scatter of people along and across the locus
 constexpr double kWhiteBalanceSigma = 0.12;  // what a camera's white balance leaves of the light's colour
-// Lips and brows are darker than the skin around them by more than shading explains.
-constexpr std::array<float, kSkinRegionCount> kRelativeLuminance = {1, 1, 1, 1, 0.75F, 1, 1, 1, 0.5F, 1};
+constexpr int kMostSamples = 3000;           // pixels that the light is fitted to; more say the same
 
 struct Mean {
   Eigen::Array3d sum = Eigen::Array3d::Zero();
@@ -52,11 +53,41 @@ void box_blur(Image& image, int radius, bool along_rows) {
   }
 }
 
+// Skin that is not clipped, evenly over the picture.
+RegionSamples samples_of(const Image& diffuse, const ByteImage& skin_region, const ByteImage& clipped,
+                         const Image& normal_cam) {
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < skin_region.pixel_count(); ++i) {
+    const int region = skin_region.data()[i];
+    const Eigen::Map<const Eigen::Vector3f> normal(normal_cam.data() + 3 * i);
+    if (region >= 1 && region <= kSkinRegionCount && clipped.data()[i] == 0 && normal.norm() > 0.5F)
+      places.push_back(i);
+  }
+  const std::size_t step = places.size() / kMostSamples + 1;
+  RegionSamples samples;
+  const auto count = static_cast<Eigen::Index>((places.size() + step - 1) / step);
+  samples.normal.resize(count, 3);
+  samples.luminance.resize(count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const std::size_t i = places[static_cast<std::size_t>(k) * step];
+    samples.normal.row(k) = Eigen::Map<const Eigen::RowVector3f>(normal_cam.data() + 3 * i).normalized();
+    const float* rgb = diffuse.data() + 3 * i;
+    samples.luminance[k] = luminance(rgb[0], rgb[1], rgb[2]);
+    samples.region.push_back(static_cast<Region>(skin_region.data()[i]));
+  }
+  return samples;
+}
+
 }  // namespace
 
-AlbedoModel fit_albedo(const Image& diffuse, const ByteImage& skin_region, const ByteImage& clipped, bool grey) {
-  if (!diffuse.same_size(skin_region) || !diffuse.same_size(clipped) || diffuse.channels() != 3) {
-    throw std::invalid_argument("Albedo needs a three-channel diffuse layer and region and clip maps of its size.");
+AlbedoModel fit_albedo(const Image& diffuse, const ByteImage& skin_region, const ByteImage& clipped,
+                       const Image& normal_cam, bool grey) {
+  const bool has_normals = !normal_cam.empty();
+  if (!diffuse.same_size(skin_region) || !diffuse.same_size(clipped) || diffuse.channels() != 3 ||
+      (has_normals && (!normal_cam.same_size(skin_region) || normal_cam.channels() != 3))) {
+    throw std::invalid_argument(
+        "Albedo needs a three-channel diffuse layer, region and clip maps of its size, and normals of that size or "
+        "none.");
   }
   std::array<Mean, kSkinRegionCount> regions;
   Mean all;
@@ -74,7 +105,9 @@ AlbedoModel fit_albedo(const Image& diffuse, const ByteImage& skin_region, const
   const Eigen::Array3d prior_skin = grey ? Eigen::Array3d::Ones().eval()
                                          : Eigen::Array3d(std::exp(kSkinLogRatio[0]), 1.0, std::exp(kSkinLogRatio[1]));
   model.light_colour.setOnes();
-  model.region_albedo.fill(with_luminance(prior_skin, kSkinLuminance));
+  RelativeLuminance relative = usual_relative_luminance();
+  for (std::size_t r = 0; r < relative.size(); ++r)
+    model.region_albedo[r] = with_luminance(prior_skin, kSkinLuminance * relative[r]);
   if (all.count < 1 || !(all.sum.minCoeff() > 0)) return model;
 
   // log(product) = log(light) + log(skin); posterior mean of the first under two independent normal priors.
@@ -85,12 +118,13 @@ AlbedoModel fit_albedo(const Image& diffuse, const ByteImage& skin_region, const
            : ((found - kSkinLogRatio) * (kLightVariance / (kLightVariance + kSkinSigma * kSkinSigma))).eval();
   const Eigen::Array3d light(std::exp(log_light[0]), 1.0, std::exp(log_light[1]));
   model.light_colour = light.matrix().cast<float>();
+  if (has_normals) relative = fit_relative_luminance(samples_of(diffuse, skin_region, clipped, normal_cam));
   for (std::size_t r = 0; r < regions.size(); ++r) {
     // Regions of few pixels lean on the whole face.
     constexpr double kLeast = 50;
     const Eigen::Array3d mean = regions[r].sum + kLeast * all.sum / all.count;
     if (!(mean.minCoeff() > 0)) continue;
-    model.region_albedo[r] = with_luminance(mean / light, kSkinLuminance * kRelativeLuminance[r]);
+    model.region_albedo[r] = with_luminance(mean / light, kSkinLuminance * relative[r]);
   }
   return model;
 }

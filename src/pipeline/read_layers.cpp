@@ -56,7 +56,8 @@ void read_layers(const FaceReader& reader, const EstimateOptions& options, bool 
     face.shading = std::move(split.shading);
     face.light_colour = split.light_colour;
   } else {
-    const lighting::AlbedoModel albedo = lighting::fit_albedo(face.layers.diffuse, skin, face.clipped, grey);
+    const lighting::AlbedoModel albedo =
+        lighting::fit_albedo(face.layers.diffuse, skin, face.clipped, face.geometry.normal_cam, grey);
     face.light_colour = albedo.light_colour;
     face.albedo = lighting::albedo_picture(albedo, skin);
     face.shading = divide(face.layers.diffuse, face.albedo, skin);

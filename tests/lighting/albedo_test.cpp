@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
 namespace faceprobe::lighting {
 namespace {
 
@@ -51,9 +55,64 @@ TEST(Albedo, ShadingKeepsTheGradientThatRegionsCannotExplain) {
 
 TEST(Albedo, GreyPhotoHasGreyLight) {
   const Face face = face_of_colour({1, 1, 1});
-  const AlbedoModel model = fit_albedo(face.diffuse, face.region, face.clipped, true);
+  const AlbedoModel model = fit_albedo(face.diffuse, face.region, face.clipped, {}, true);
   EXPECT_TRUE(model.light_colour.isOnes(1e-6F));
   EXPECT_NEAR(model.region_albedo[0][0], model.region_albedo[0][2], 1e-5F);
+}
+
+// A ball: forehead above, cheeks about the middle, chin and jaw below, under a lamp and an even surround.
+struct Ball : Face {
+  Image normal{60, 60, 3};
+
+  Ball(const Eigen::Vector3f& towards, float chin) {
+    for (int y = 0; y < 60; ++y) {
+      for (int x = 0; x < 60; ++x) {
+        const float right = (static_cast<float>(x) - 29.5F) / 32;
+        const float up = (29.5F - static_cast<float>(y)) / 32;
+        const float square = 1 - right * right - up * up;
+        if (square < 0.1F) continue;
+        const Eigen::Vector3f n(right, up, std::sqrt(square));
+        Eigen::Map<Eigen::Vector3f>(normal.pixel(x, y)) = n;
+        const Region part = up > 0.4F                ? Region::kForehead
+                            : up > -0.2F             ? Region::kCheeks
+                            : std::abs(right) < 0.3F ? Region::kChin
+                                                     : Region::kJaw;
+        region(x, y) = static_cast<std::uint8_t>(part);
+        const float albedo = part == Region::kChin || part == Region::kJaw ? chin : 1.0F;
+        for (int c = 0; c < 3; ++c)
+          diffuse(x, y, c) = 0.4F * albedo * (0.1F + std::max(0.0F, n.dot(towards.normalized())));
+      }
+    }
+  }
+
+  // Shading low on the chin over that as high on the forehead, which a lamp in front makes alike.
+  float below_over_above(const Image& normals) const {
+    const Image albedo = albedo_picture(fit_albedo(diffuse, region, clipped, normals), region);
+    return (diffuse(30, 48, 1) / albedo(30, 48, 1)) / (diffuse(30, 11, 1) / albedo(30, 11, 1));
+  }
+};
+
+TEST(Albedo, ABeardsShadowIsNotLightFromAbove) {
+  const Ball bearded({0, 0, 1}, 0.7F);
+  // Without normals the usual ratio is all there is: .95 of the forehead's 1.01 instead of .7.
+  EXPECT_LT(bearded.below_over_above({}), 0.8F);
+  // With them the prior (a chin of .7 is two standard deviations off) keeps a part of it.
+  EXPECT_NEAR(bearded.below_over_above(bearded.normal), 1.0F, 0.1F);
+}
+
+TEST(Albedo, LightFromAboveIsNotABeardsShadow) {
+  for (const float up : {0.5F, 1.0F}) {
+    const Ball shaved({0.3F, up, 1}, 1);
+    const float truth = shaved.diffuse(30, 48, 1) / shaved.diffuse(30, 11, 1);
+    EXPECT_LT(truth, 0.6F);
+    // A smooth light explains it all; what is left is the prior's pull towards a chin a little darker than a forehead.
+    EXPECT_NEAR(shaved.below_over_above(shaved.normal) / truth, 1.0F, 0.08F);
+  }
+}
+
+TEST(Albedo, RefusesNormalsOfAnotherSize) {
+  const Face face = face_of_colour({1, 1, 1});
+  EXPECT_THROW(fit_albedo(face.diffuse, face.region, face.clipped, Image(30, 60, 3)), std::invalid_argument);
 }
 
 TEST(Albedo, NothingUsableGivesThePriorNotNan) {

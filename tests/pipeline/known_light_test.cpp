@@ -54,7 +54,8 @@ TEST(KnownLight, AlsoThroughSeparatorAndAlbedo) {
     const Eigen::Vector3d truth = direction_from_angles(azimuth, elevation);
     const Image photo = testing::photograph(posed, light_up(posed, {{truth}}, 0.05F));
     const highlight::Layers layers = highlight::separate(photo, skin, {.separator = highlight::Separator::kYang});
-    const Image albedo = lighting::albedo_picture(lighting::fit_albedo(layers.diffuse, skin, no_flags(posed)), skin);
+    const Image albedo = lighting::albedo_picture(
+        lighting::fit_albedo(layers.diffuse, skin, no_flags(posed), posed.geometry.normal_cam), skin);
     LitFace seen{layers.highlight, layers.diffuse};
     for (std::size_t i = 0; i < albedo.values().size(); ++i) seen.shading.values()[i] /= albedo.values()[i];
     // The separator keeps part of each highlight in the diffuse layer, most where the light grazes; 15 degrees were measured on
