@@ -5,6 +5,7 @@
 #include "faceprobe/core/parallel.h"
 #include "faceprobe/core/random.h"
 #include "faceprobe/core/sphere_grid.h"
+#include "faceprobe/core/vertex_normals.h"
 #include "faceprobe/synth/matrix_product.h"
 #include "faceprobe/synth/transport.h"
 

@@ -2,6 +2,7 @@
 
 #include "faceprobe/core/angles.h"
 #include "faceprobe/core/error.h"
+#include "faceprobe/core/vertex_normals.h"
 
 #include <algorithm>
 #include <fstream>
@@ -60,7 +61,7 @@ synth::SurfaceMesh load_head(const std::filesystem::path& data) {
   mesh.triangles.resize(static_cast<Eigen::Index>(triangles.size()), 3);
   for (std::size_t t = 0; t < triangles.size(); ++t)
     mesh.triangles.row(static_cast<Eigen::Index>(t)) = triangles[t].transpose();
-  mesh.normals = synth::vertex_normals(mesh.vertices, mesh.triangles);
+  mesh.normals = vertex_normals(mesh.vertices, mesh.triangles);
   mesh.vertex_region.assign(kSolidVertices, Region::kOther);
   return mesh;
 }

@@ -1,6 +1,7 @@
 #include "assets/model_mesh.h"
 
 #include "faceprobe/core/color.h"
+#include "faceprobe/core/vertex_normals.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -100,7 +101,7 @@ render::TriangleMesh read_mesh(const aiMesh& source, const Eigen::Matrix4f& worl
   return mesh;
 }
 
-// As render::smooth_normals, but smooth where vertices were doubled for their texture points too.
+// As vertex_normals, but smooth where vertices were doubled for their texture points too.
 Eigen::MatrixX3f normals_across_seams(const render::TriangleMesh& mesh) {
   std::vector<int> order(static_cast<std::size_t>(mesh.vertices.rows())), first(order.size());
   std::iota(order.begin(), order.end(), 0);
@@ -111,7 +112,7 @@ Eigen::MatrixX3f normals_across_seams(const render::TriangleMesh& mesh) {
     first[static_cast<std::size_t>(order[i])] = same ? first[static_cast<std::size_t>(order[i - 1])] : order[i];
   }
   const Eigen::MatrixX3i triangles = mesh.triangles.unaryExpr([&](int i) { return first[static_cast<std::size_t>(i)]; });
-  Eigen::MatrixX3f normals = render::smooth_normals(mesh.vertices, triangles);
+  Eigen::MatrixX3f normals = vertex_normals<double>(mesh.vertices, triangles);
   for (std::size_t i = 0; i < first.size(); ++i) {
     normals.row(static_cast<Eigen::Index>(i)) = normals.row(first[i]).eval();
   }

@@ -1,6 +1,7 @@
 #include "faceprobe/assets/object.h"
 
 #include "assets/obj_file.h"
+#include "faceprobe/core/vertex_normals.h"
 
 #include <utility>
 
@@ -10,7 +11,7 @@ synth::SurfaceMesh load_object(const std::filesystem::path& path) {
   ObjFile file = read_obj(path);
   synth::SurfaceMesh mesh;
   mesh.material = synth::Material::kObject;
-  mesh.normals = synth::vertex_normals(file.vertices, file.triangles);
+  mesh.normals = vertex_normals(file.vertices, file.triangles);
   mesh.vertices = std::move(file.vertices);
   mesh.triangles = std::move(file.triangles);
   mesh.uv = std::move(file.uv);

@@ -3,6 +3,7 @@
 #include "faceprobe/core/angles.h"
 #include "faceprobe/core/color.h"
 #include "faceprobe/core/error.h"
+#include "faceprobe/core/vertex_normals.h"
 #include "pipeline/unwrap_raster.h"
 
 #include <Eigen/Geometry>
@@ -223,7 +224,7 @@ Image mannequin_picture(const synth::HeadModel& model, const DenseLandmarkOption
   const Shot shot = shot_of(options, side, yaw_deg, pitch_deg);
   const Eigen::MatrixX3f points = project_all(model.neutral, shot);
   const MeshRaster raster = raster_mesh(points, model.triangles, triangles_of(model, false), side, side);
-  const Eigen::MatrixX3f normals = synth::vertex_normals(model.neutral, model.triangles);
+  const Eigen::MatrixX3f normals = vertex_normals(model.neutral, model.triangles);
   const Paint paint{model, options.texture.empty() ? model.texture : options.texture, eye_centres(model)};
   const Eigen::Vector3d lamp = Eigen::Vector3d(0.35, 0.55, 0.75).normalized();  // camera frame
   Image picture(options.size_px, options.size_px, 3);

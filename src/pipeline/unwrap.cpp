@@ -6,6 +6,7 @@
 #include "faceprobe/core/parallel.h"
 #include "faceprobe/core/quantile.h"
 #include "faceprobe/core/smooth_step.h"
+#include "faceprobe/core/vertex_normals.h"
 #include "pipeline/camera_of.h"
 #include "pipeline/unwrap_fill.h"
 #include "pipeline/unwrap_fit.h"
@@ -333,7 +334,7 @@ Unwrapped unwrap_face(const io::Photo& photo, const face::Face& face, const face
   const FacePicture picture = face_picture(photo, face, options.size_px);
   Seen seen{model,
             fit.vertices_cam,
-            synth::vertex_normals(fit.vertices_cam, model.triangles),
+            vertex_normals(fit.vertices_cam, model.triangles),
             picture_points(fit, pairs, face, camera, picture.crop, options.threads),
             landmark_nearness(model, pairs),
             {},

@@ -1,6 +1,7 @@
 #include "loft.h"
 
 #include "faceprobe/core/angles.h"
+#include "faceprobe/core/vertex_normals.h"
 
 #include <cmath>
 #include <cstddef>
@@ -55,7 +56,7 @@ TriangleMesh loft(const std::vector<Ring>& rings, int columns) {
   mesh.triangles.resize(static_cast<Eigen::Index>(triangles.size()), 3);
   for (std::size_t v = 0; v < vertices.size(); ++v) mesh.vertices.row(static_cast<Eigen::Index>(v)) = vertices[v];
   for (std::size_t t = 0; t < triangles.size(); ++t) mesh.triangles.row(static_cast<Eigen::Index>(t)) = triangles[t];
-  mesh.normals = smooth_normals(mesh.vertices, mesh.triangles);
+  mesh.normals = vertex_normals<double>(mesh.vertices, mesh.triangles);
   return mesh;
 }
 

@@ -81,25 +81,6 @@ std::string Model::validate() const {
   return {};
 }
 
-Eigen::MatrixX3f smooth_normals(const Eigen::MatrixX3f& vertices, const Eigen::MatrixX3i& triangles) {
-  // Double, because areas of small triangles are lost in float.
-  Eigen::MatrixX3d sums = Eigen::MatrixX3d::Zero(vertices.rows(), 3);
-  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
-    const Eigen::RowVector3i corner = triangles.row(t);
-    const Eigen::RowVector3d a = vertices.row(corner[0]).cast<double>();
-    const Eigen::RowVector3d b = vertices.row(corner[1]).cast<double>() - a;
-    const Eigen::RowVector3d c = vertices.row(corner[2]).cast<double>() - a;
-    const Eigen::RowVector3d twice_area = b.cross(c);
-    for (const int k : corner) sums.row(k) += twice_area;
-  }
-  Eigen::MatrixX3f normals(vertices.rows(), 3);
-  for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
-    const double length = sums.row(v).norm();
-    normals.row(v) = length > 0 ? Eigen::RowVector3f((sums.row(v) / length).cast<float>()) : Eigen::RowVector3f(0, 1, 0);
-  }
-  return normals;
-}
-
 void transform(Model& model, const Eigen::Transform<float, 3, Eigen::Affine>& world_from_model) {
   const Eigen::Matrix3f linear = world_from_model.linear();
   // The inverse transpose up to a factor, by columns of unit length: no scale makes it overflow.

@@ -3,6 +3,7 @@
 #include "faceprobe/core/angles.h"
 #include "faceprobe/core/color.h"
 #include "faceprobe/core/sphere_grid.h"
+#include "faceprobe/core/vertex_normals.h"
 #include "faceprobe/io/picture_file.h"
 #include "faceprobe/pipeline/insertion_files.h"
 #include "faceprobe/render/shapes.h"
@@ -53,7 +54,7 @@ render::Model marker() {
   mesh.vertices << 0, 0, 0, 0, 2, 0, 0, 0, 1, 1, 0, 0, 0, 0, -1, -1, 0, 0;
   mesh.triangles.resize(4, 3);
   mesh.triangles << 1, 2, 3, 1, 3, 4, 1, 4, 5, 1, 5, 2;
-  mesh.normals = render::smooth_normals(mesh.vertices, mesh.triangles);
+  mesh.normals = vertex_normals(mesh.vertices, mesh.triangles);
   return {{mesh}, {render::material_preset("diffuse")}};
 }
 Eigen::Vector3f vertex(const insert::Scene& scene, int i) { return scene.model.meshes[0].vertices.row(i).transpose(); }

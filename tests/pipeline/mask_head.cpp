@@ -1,6 +1,7 @@
 #include "pipeline/mask_head.h"
 
 #include "faceprobe/core/angles.h"
+#include "faceprobe/core/vertex_normals.h"
 #include "faceprobe/face/canonical_mesh.h"
 #include "faceprobe/io/data_files.h"
 #include "pipeline/unwrap_raster.h"
@@ -56,7 +57,7 @@ MaskPhoto mask_photo(double yaw_deg, const Radiance& radiance) {
   std::vector<int> all(static_cast<std::size_t>(model.triangles.rows()));
   std::iota(all.begin(), all.end(), 0);
   const MeshRaster raster = raster_mesh(points, model.triangles, all, kSide, kSide);
-  const Eigen::MatrixX3f normals = synth::vertex_normals(out.face.vertices_cam_m, model.triangles);
+  const Eigen::MatrixX3f normals = vertex_normals(out.face.vertices_cam_m, model.triangles);
   out.photo.linear = Image(kSide, kSide, 3, 0.05F);
   out.photo.clipped = ByteImage(kSide, kSide, 1);
   for (int y = 0; y < kSide; ++y) {

@@ -1,6 +1,7 @@
 #include "faceprobe/render/model.h"
 
 #include "faceprobe/core/angles.h"
+#include "faceprobe/core/vertex_normals.h"
 
 #include <gtest/gtest.h>
 
@@ -28,7 +29,7 @@ Model one_triangle() {
   mesh.vertices << 0, 0, 0, 1, 0, 0, 0, 2, 0;
   mesh.triangles.resize(1, 3);
   mesh.triangles << 0, 1, 2;
-  mesh.normals = smooth_normals(mesh.vertices, mesh.triangles);
+  mesh.normals = vertex_normals(mesh.vertices, mesh.triangles);
   return {{std::move(mesh)}, {material_preset("clay")}};
 }
 
@@ -59,25 +60,6 @@ TEST(Model, CountsAndBounds) {
   EXPECT_TRUE(Model{}.box().isEmpty());
 }
 
-TEST(Model, SmoothNormalsWeighByArea) {
-  Eigen::MatrixX3f vertices(5, 3);
-  // A triangle of area 2 towards +z and one of area 1 towards +x share the edge 0-1; vertex 4 is in none.
-  vertices << 0, 0, 0, 0, 2, 0, -2, 0, 0, 0, 0, -1, 9, 9, 9;
-  Eigen::MatrixX3i triangles(2, 3);
-  triangles << 0, 1, 2, 0, 3, 1;
-  const Eigen::MatrixX3f normals = smooth_normals(vertices, triangles);
-  EXPECT_POINT(normals.row(2).transpose(), 0, 0, 1);
-  EXPECT_POINT(normals.row(3).transpose(), 1, 0, 0);
-  EXPECT_POINT(normals.row(0).transpose(), 1 / std::sqrt(5.0F), 0, 2 / std::sqrt(5.0F));
-  EXPECT_POINT(normals.row(4).transpose(), 0, 1, 0);
-}
-
-TEST(Model, SmoothNormalsOfTinyTrianglesHaveUnitLength) {
-  Model model = one_triangle();
-  model.meshes[0].vertices *= 1e-15F;  // whose areas, squared, are no float
-  EXPECT_POINT(smooth_normals(model.meshes[0].vertices, model.meshes[0].triangles).row(1).transpose(), 0, 0, 1);
-}
-
 TEST(Model, TransformMovesVerticesAndTurnsNormals) {
   Model model = one_triangle();
   Eigen::Affine3f world_from_model = Eigen::Affine3f::Identity();
@@ -94,7 +76,7 @@ TEST(Model, TransformMovesVerticesAndTurnsNormals) {
 TEST(Model, NormalsStayUprightUnderUnevenScale) {
   Model model = one_triangle();
   model.meshes[0].vertices.row(1) = Eigen::RowVector3f(1, 0, 1);
-  model.meshes[0].normals = smooth_normals(model.meshes[0].vertices, model.meshes[0].triangles);
+  model.meshes[0].normals = vertex_normals(model.meshes[0].vertices, model.meshes[0].triangles);
   transform(model, Eigen::Affine3f(Eigen::Scaling(3.0F, 1.0F, 0.5F)));
   EXPECT_NEAR(normal(model, 0).dot(vertex(model, 1) - vertex(model, 0)), 0, kRounding);
   EXPECT_NEAR(normal(model, 0).norm(), 1, kRounding);
@@ -104,7 +86,7 @@ TEST(Model, NormalsStayUprightUnderUnevenScale) {
 TEST(Model, MirrorImageIsNotInsideOut) {
   Model model = one_triangle();
   transform(model, Eigen::Affine3f(Eigen::Scaling(-1.0F, 1.0F, 1.0F)));
-  const Eigen::MatrixX3f geometric = smooth_normals(model.meshes[0].vertices, model.meshes[0].triangles);
+  const Eigen::MatrixX3f geometric = vertex_normals(model.meshes[0].vertices, model.meshes[0].triangles);
   EXPECT_POINT(normal(model, 0), 0, 0, 1);
   EXPECT_POINT(geometric.row(0).transpose(), 0, 0, 1);
 }

@@ -33,9 +33,6 @@ struct Model {
   std::string validate() const;
 };
 
-// Area-weighted vertex normals (#V x 3, unit length; vertices of no triangle get +y).
-Eigen::MatrixX3f smooth_normals(const Eigen::MatrixX3f& vertices, const Eigen::MatrixX3i& triangles);
-
 // Every vertex and normal by an affine map without a flat side; a mirroring one turns the triangles round.
 void transform(Model& model, const Eigen::Transform<float, 3, Eigen::Affine>& world_from_model);
 

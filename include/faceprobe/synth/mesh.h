@@ -60,7 +60,4 @@ struct Figure {
   std::vector<Strands> strands;
 };
 
-// Area-weighted vertex normals (#V x 3, unit length; vertices of no triangle get +z).
-Eigen::MatrixX3f vertex_normals(const Eigen::MatrixX3f& vertices, const Eigen::MatrixX3i& triangles);
-
 }  // namespace faceprobe::synth

@@ -1,5 +1,7 @@
 #include "faceprobe/synth/head_model.h"
 
+#include "faceprobe/core/vertex_normals.h"
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -19,18 +21,6 @@ void add_modes(const std::vector<Eigen::MatrixX3f>& modes, const Eigen::VectorXf
     const Eigen::MatrixX3f& mode = modes[static_cast<std::size_t>(i)];
     if (weights(i) != 0) vertices.topRows(mode.rows()) += weights(i) * mode;
   }
-}
-
-// Twice the area of each vertex's triangles times their normals.
-Eigen::MatrixX3f area_normals(const Eigen::MatrixX3f& vertices, const Eigen::MatrixX3i& triangles) {
-  Eigen::MatrixX3f normals = Eigen::MatrixX3f::Zero(vertices.rows(), 3);
-  for (const auto& t : triangles.rowwise()) {
-    const Eigen::RowVector3f ab = vertices.row(t(1)) - vertices.row(t(0));
-    const Eigen::RowVector3f ac = vertices.row(t(2)) - vertices.row(t(0));
-    const Eigen::RowVector3f twice_area = ab.cross(ac);
-    for (int corner = 0; corner < 3; ++corner) normals.row(t(corner)) += twice_area;
-  }
-  return normals;
 }
 
 constexpr float kSameSide = 0.2F;  // cosine: what faces farther apart than this are two surfaces
@@ -55,15 +45,7 @@ Eigen::MatrixX3f whole_normals(const Eigen::MatrixX3f& vertices, const Eigen::Ma
       }
     }
   }
-  for (auto normal : normals.rowwise()) {
-    const float length = normal.norm();
-    if (length > 0) {
-      normal /= length;
-    } else {
-      normal = Eigen::RowVector3f(0, 0, 1);
-    }
-  }
-  return normals;
+  return unit_normals(normals);
 }
 
 // How the parts other than skin look: moist, the teeth smoother than the gums. rho_s = .25 is a lobe that keeps its energy.

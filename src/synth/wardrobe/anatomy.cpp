@@ -1,5 +1,7 @@
 #include "synth/wardrobe/anatomy.h"
 
+#include "faceprobe/core/vertex_normals.h"
+
 #include <algorithm>
 #include <stdexcept>
 

@@ -1,6 +1,7 @@
 #include "synth/wardrobe/shapes.h"
 
 #include "faceprobe/core/angles.h"
+#include "faceprobe/core/vertex_normals.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

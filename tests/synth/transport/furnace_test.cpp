@@ -1,6 +1,7 @@
 // A white sky all around: nothing can come out brighter than it, and a white convex body exactly as bright.
 
 #include "faceprobe/core/sphere_grid.h"
+#include "faceprobe/core/vertex_normals.h"
 #include "synth/transport/fixtures.h"
 
 #include <gtest/gtest.h>

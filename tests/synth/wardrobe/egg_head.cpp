@@ -1,5 +1,7 @@
 #include "synth/wardrobe/egg_head.h"
 
+#include "faceprobe/core/vertex_normals.h"
+
 #include <array>
 #include <cmath>
 
