@@ -1,12 +1,13 @@
 #include "io/exif.h"
 
+#include "faceprobe/io/photo.h"
+
 #include <OpenImageIO/tiffutils.h>
 #include <cmath>
 
 namespace faceprobe::io {
 namespace {
 
-constexpr double kFilmDiagonalMm = 43.2666;  // sqrt(36^2 + 24^2)
 constexpr int kMaxChunks = 10'000;
 
 std::span<const std::byte> png_exif(const ByteReader& r) {

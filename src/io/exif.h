@@ -16,8 +16,8 @@ OIIO::ImageSpec with_exif(const OIIO::ImageSpec& spec, const Header& header, std
 // 1..8; 1 when the file does not say, or says nonsense.
 int exif_orientation(const OIIO::ImageSpec& spec);
 
-// Focal length in pixels of this picture. From the 35 mm equivalent by the diagonal, as CIPA DCG-001 defines it (the 36 x 24
-// frame's diagonal is 43.27 mm); else from the focal length and the sensor's pixel pitch.
+// Focal length in pixels of this picture. From the 35 mm equivalent by the diagonal, as CIPA DCG-001 defines it; else from the focal
+// length and the sensor's pixel pitch.
 std::optional<double> exif_focal_px(const OIIO::ImageSpec& spec);
 
 }  // namespace faceprobe::io

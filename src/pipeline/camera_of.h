@@ -23,8 +23,8 @@ inline CameraChoice camera_of(const io::Photo& photo, const EstimateOptions& opt
     choice.camera.focal_px = *photo.focal_px;
     choice.source = FocalSource::kExif;
   } else {
-    // 50 mm on the 43.27 mm diagonal of a 36 x 24 mm frame.
-    choice.camera.focal_px = 50.0 / 43.27 * std::hypot(photo.linear.width(), photo.linear.height());
+    constexpr double kLensMm = 50;
+    choice.camera.focal_px = kLensMm / io::kFilmDiagonalMm * std::hypot(photo.linear.width(), photo.linear.height());
   }
   return choice;
 }

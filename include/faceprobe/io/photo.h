@@ -27,6 +27,9 @@ inline constexpr std::uint8_t kClippedGreen = 2;
 inline constexpr std::uint8_t kClippedBlue = 4;
 inline constexpr std::uint8_t kTransparent = 8;  // alpha < 1: the colour here is not the camera's
 
+// Diagonal of a 36 x 24 mm frame, to 0.01 mm: by it focal lengths are made 35 mm equivalents (CIPA DCG-001).
+inline constexpr double kFilmDiagonalMm = 43.27;
+
 struct Photo {
   Image linear;       // H x W x 3, linear Rec.709, upright
   ByteImage clipped;  // H x W x 1, the bits above
