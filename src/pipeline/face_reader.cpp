@@ -1,5 +1,6 @@
 #include "pipeline/face_reader.h"
 
+#include "faceprobe/core/resample.h"
 #include "faceprobe/face/geometry.h"
 #include "faceprobe/highlight/upsample.h"
 #include "faceprobe/io/data_files.h"
@@ -9,7 +10,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 
 namespace faceprobe::pipeline {
 
@@ -19,6 +19,16 @@ double shown_share(const face::Crop& crop, int photo_width, int photo_height) {
   const double shown_width = std::min(crop.x_px + width, static_cast<double>(photo_width)) - std::max(crop.x_px, 0.0);
   const double shown_height = std::min(crop.y_px + height, static_cast<double>(photo_height)) - std::max(crop.y_px, 0.0);
   return std::max(0.0, shown_width) * std::max(0.0, shown_height) / (width * height);
+}
+
+face::Crop small_crop(const face::Crop& crop) {
+  constexpr int kLongSidePx = 128;  // synthetic faces of 128 px fill their pictures about as a crop does
+  const Window small = shrunk(crop.width, crop.height, kLongSidePx);
+  return {.x_px = crop.x_px,
+          .y_px = crop.y_px,
+          .scale = crop.scale * small.scale,
+          .width = small.width,
+          .height = small.height};
 }
 
 namespace {
@@ -44,15 +54,6 @@ void fill_clipped(const ByteImage& flags, const Image& picture, Image& highlight
       }
     }
   }
-}
-
-// The network's small picture of the whole.
-face::Crop small_copy(const Image& picture) {
-  constexpr int kLongSidePx = 128;  // synthetic faces of 128 px fill their pictures about as a crop does
-  const int long_side = std::max(picture.width(), picture.height());
-  const double scale = std::min(1.0, static_cast<double>(kLongSidePx) / long_side);
-  const auto shrunk = [scale](int px) { return std::max(1, static_cast<int>(std::lround(scale * px))); };
-  return {.x_px = 0, .y_px = 0, .scale = scale, .width = shrunk(picture.width()), .height = shrunk(picture.height())};
 }
 
 Image enlarged(const Image& small, const face::Crop& copy, int width, int height) {
@@ -129,7 +130,10 @@ struct FaceReader::Network {
   };
   Look look(const Image& picture, const ByteImage& flags, const ByteImage& skin,
             const face::FaceGeometry& geometry) const {
-    Look look{small_copy(picture), {}, ByteImage(skin.width(), skin.height(), 1), {}};
+    Look look{small_crop({.width = picture.width(), .height = picture.height()}),
+              {},
+              ByteImage(skin.width(), skin.height(), 1),
+              {}};
     look.small = face::crop_picture(picture, look.copy);
     std::transform(skin.values().begin(), skin.values().end(), look.where.values().begin(),
                    [](std::uint8_t value) { return value != 0 ? std::uint8_t{1} : std::uint8_t{0}; });

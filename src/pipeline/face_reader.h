@@ -15,6 +15,9 @@ namespace faceprobe::pipeline {
 // How much of a face's crop (face::face_crop) a photo shows, 0 to 1.
 double shown_share(const face::Crop& crop, int photo_width, int photo_height);
 
+// The same part of the photo, no larger than the network's picture.
+face::Crop small_crop(const face::Crop& crop);
+
 // As net::FaceLayers has it, at the picture's size; the normals as if the camera looked at the picture's middle.
 struct Surface {
   Image normal_cam;

@@ -22,15 +22,6 @@ face::Crop full_crop(const face::Crop& wide, int width, int height) {
           .height = std::max(0, bottom - top)};
 }
 
-// The same part of the photo, no larger than the network's picture.
-face::Crop small_crop(face::Crop crop) {
-  constexpr double kLongSidePx = 128;
-  crop.scale = std::min(1.0, kLongSidePx / std::max(crop.width, crop.height));
-  crop.width = std::max(1, static_cast<int>(std::lround(crop.scale * crop.width)));
-  crop.height = std::max(1, static_cast<int>(std::lround(crop.scale * crop.height)));
-  return crop;
-}
-
 template <class T>
 BasicImage<T> cut(const BasicImage<T>& photo, int left, int top, const face::Crop& crop) {
   BasicImage<T> out(crop.width, crop.height, photo.channels());
