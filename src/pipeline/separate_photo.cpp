@@ -35,7 +35,7 @@ Error no_face(const io::Photo& photo, const EstimateOptions& options) {
   return {ExitCode::kNoFace, "No face was found in this picture of " + std::to_string(photo.linear.width()) + " x " +
                                  std::to_string(photo.linear.height()) + " px; faces are looked for from " +
                                  std::to_string(options.finder.min_face_px) +
-                                 " px. If there is one, its landmarks can be given (--landmarks)."};
+                                 " px. If there is one, give its landmarks."};
 }
 
 highlight::Layers Estimator::separate(const io::Photo& photo) const {

@@ -77,7 +77,7 @@ write_blank_picture() {
 case_no_face() {
   write_blank_picture blank.hdr
   expect_refused 4 "120 x 100" estimate blank.hdr
-  expect_refused 4 "face" separate blank.hdr
+  expect_refused 4 "give its landmarks" separate blank.hdr
   expect_files "$work" stdout stderr blank.hdr
   # To be without a face is an answer for info.
   expect_exit 0 info blank.hdr

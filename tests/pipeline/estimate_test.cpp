@@ -224,7 +224,10 @@ TEST(Estimate, APhotoWithoutAFaceIsAnErrorThatSaysSo) {
     FAIL() << "a blank picture has no face";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::kNoFace);
-    EXPECT_NE(std::string(error.what()).find("320 x 200"), std::string::npos) << error.what();
+    const std::string sentence = error.what();
+    EXPECT_NE(sentence.find("320 x 200"), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find("landmarks"), std::string::npos) << sentence;
+    EXPECT_EQ(sentence.find("--"), std::string::npos) << "options are the command's: " << sentence;
   }
   EXPECT_THROW(Estimator().separate(blank(320, 200)), Error);
   EXPECT_TRUE(Estimator().find_faces(blank(320, 200)).empty());
