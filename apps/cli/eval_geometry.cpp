@@ -85,6 +85,9 @@ std::string overlap_table(const eval::GeometryScores& scores) {
     text += fmt::format(" {:.3f} |", scores.mean_overlap(method));
   text += "\n| all skin |";
   for (const auto& [method, overlap] : scores.skin_overlap) text += fmt::format(" {:.3f} |", overlap);
+  text += "\n| photos left out, without a face |";
+  for (const auto& [method, overlap] : scores.region_overlap)
+    text += fmt::format(" {} |", scores.without_face.at(method));
   return text + "\n";
 }
 

@@ -175,8 +175,10 @@ GeometryScores measure_geometry(const synth::ShardReader& faces, const std::vect
     found.reserve(methods.size());
     for (const GeometryMethod& method : methods) found.push_back(method.find(photo.input()));
     const ByteImage judged = judged_pixels(photo, found);
-    for (std::size_t m = 0; m < methods.size(); ++m)
+    for (std::size_t m = 0; m < methods.size(); ++m) {
       scores.table.add(row_of(methods[m], number, photo, found[m], judged, gathered[m]));
+      scores.without_face[methods[m].name] += found[m].normal_cam.empty() ? 1 : 0;
+    }
   });
   for (std::size_t m = 0; m < methods.size(); ++m) {
     const std::string& name = methods[m].name;

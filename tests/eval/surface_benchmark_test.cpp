@@ -49,6 +49,21 @@ TEST(GeometryBenchmark, AMethodWithoutAFaceIsMissingAndHarmsNoOther) {
   EXPECT_EQ(scores.table.summary("normal", {.method = "blind"}).missing, 3U);
   EXPECT_EQ(scores.table.summary("normal", {.method = "right"}).count, 3U);
   EXPECT_FALSE(scores.region_overlap.contains("blind"));
+  EXPECT_EQ(scores.without_face.at("blind"), 3);
+  EXPECT_EQ(scores.without_face.at("right"), 0);
+}
+
+// A method that finds the face in some photos alone is judged by these, and the rest is told.
+TEST(GeometryBenchmark, OverlapsTellHowManyPhotosTheyLeaveOut) {
+  const SmallFaces small;
+  const synth::ShardReader faces(small.path());
+  const GeometryMethod right = off_by(small, "right", 0, 1);
+  int asked = 0;
+  const GeometryMethod first = {
+      "first", [&](const PhotoInput& input) { return ++asked == 1 ? right.find(input) : GeometryEstimate{}; }};
+  const GeometryScores scores = measure_geometry(faces, {first}, {.samples = 3});
+  EXPECT_NEAR(scores.mean_overlap("first"), 1, 1e-12);
+  EXPECT_EQ(scores.without_face.at("first"), 2);
 }
 
 // Half of one region named as the other: of the named one's pixels half again too many, of the other's half left.

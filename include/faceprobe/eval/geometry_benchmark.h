@@ -52,11 +52,14 @@ struct CalibrationBin {
 
 struct GeometryScores {
   // Metrics of each row, degrees: normal and normal_median over the skin, normal_forehead, ... over parts of it that the photo shows at
-  // least 20 pixels of. Only pixels count for which every method that found the face has a normal. Groups: tone, turn (of the head).
+  // least 20 pixels of. Only pixels count for which every method that found the face has a normal; where a method found none its figures
+  // are NaN, which the table's texts count as missing. Groups: tone, turn (of the head).
   ScoreTable table;
-  std::map<std::string, std::vector<CalibrationBin>> calibration;          // of methods that state an error
-  std::map<std::string, std::array<double, kRegionCount>> region_overlap;  // intersection over union, over all photos
-  std::map<std::string, double> skin_overlap;                              // of the ten skin regions taken as one
+  std::map<std::string, std::vector<CalibrationBin>> calibration;  // of methods that state an error
+  // Intersection over union, over all photos in which the method found the face.
+  std::map<std::string, std::array<double, kRegionCount>> region_overlap;
+  std::map<std::string, double> skin_overlap;  // of the ten skin regions taken as one
+  std::map<std::string, int> without_face;     // of every method: photos that its overlaps leave out
 
   double mean_overlap(const std::string& method) const;  // over the regions that there are
 };
