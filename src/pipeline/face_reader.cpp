@@ -174,13 +174,14 @@ FaceReader::~FaceReader() = default;
 
 Reading FaceReader::read(const Image& picture, const ByteImage& flags, const ByteImage& skin,
                          const face::FaceGeometry& geometry, bool enough) const {
-  if (!network_) return {highlight::separate(picture, skin, classical_), {}};
+  if (!network_) return {highlight::separate(picture, skin, classical_), {}, classical_.separator};
   const Network::Look look = network_->look(picture, flags, skin, geometry);
   Reading reading{{}, Network::surface(look, picture.width(), picture.height())};
   if (enough) {
     reading.layers = network_->layers(look, picture);
   } else {
     reading.layers = highlight::separate(picture, skin, classical_);
+    reading.classical = classical_.separator;
     if (reading.surface) reading.surface->shading = {};
   }
   return reading;

@@ -32,6 +32,7 @@ Eigen::Matrix3f camera_from_network(const face::FaceGeometry& geometry);
 struct Reading {
   highlight::Layers layers;
   std::optional<Surface> surface;
+  std::optional<highlight::Separator> classical = std::nullopt;  // which made the layers, if one did
 };
 
 class FaceReader {

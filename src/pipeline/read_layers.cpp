@@ -43,8 +43,10 @@ void read_layers(const FaceReader& reader, const EstimateOptions& options, bool 
                  Stopwatch* watch) {
   Reading reading = reader.read(face.picture, face.clipped, skin_regions(face.geometry.region), face.geometry, enough);
   face.layers = std::move(reading.layers);
+  face.sources.classical = reading.classical;
   if (reading.surface && options.normals == NormalSource::kNet) {
     apply_normals(*reading.surface, face.geometry);
+    face.sources.normals = NormalSource::kNet;
     keep_on_skin(face.geometry.region, face.layers);
   }
   lap(watch, "highlights and normals");
@@ -55,6 +57,7 @@ void read_layers(const FaceReader& reader, const EstimateOptions& options, bool 
     face.albedo = std::move(split.albedo);
     face.shading = std::move(split.shading);
     face.light_colour = split.light_colour;
+    face.sources.shading = ShadingSource::kNet;
   } else {
     const lighting::AlbedoModel albedo =
         lighting::fit_albedo(face.layers.diffuse, skin, face.clipped, face.geometry.normal_cam, grey);

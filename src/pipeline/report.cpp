@@ -59,6 +59,17 @@ std::string_view focal_source_name(FocalSource source) {
   }
 }
 
+const char* normals_name(NormalSource source) { return source == NormalSource::kNet ? "net" : "mesh"; }
+const char* shading_name(ShadingSource source) { return source == ShadingSource::kNet ? "net" : "regions"; }
+const char* prior_name(PriorSource source) { return source == PriorSource::kNet ? "net" : "smooth"; }
+
+Json sources_json(const FaceSources& sources) {
+  return {{"separator", sources.classical ? highlight::separator_name(*sources.classical) : "net"},
+          {"geometry", normals_name(sources.normals)},
+          {"shading", shading_name(sources.shading)},
+          {"prior", prior_name(sources.prior)}};
+}
+
 Json face_json(const FaceEstimate& face) {
   // Photo coordinates keep y down, as pixels do; the pose is in the camera frame, y up.
   const Eigen::Matrix3d rotation = face.face.camera_from_face.rotation();
@@ -75,6 +86,7 @@ Json face_json(const FaceEstimate& face) {
       {"yaw_deg", azimuth_deg(forward)},
       {"pitch_deg", elevation_deg(forward)},
       {"reprojection_rms_px", face.face.reprojection_rms_px},
+      {"sources", sources_json(face.sources)},
       {"patches", face.observations.count()},
       {"light_colour_rgb", array_of(face.light_colour)},
       {"light", light_json(face)}};
@@ -102,10 +114,10 @@ std::string report_json(const Estimate& estimate, const io::Photo& photo, const 
                       {"focal_source", focal_source_name(estimate.focal_source)},
                       {"centre_px", {estimate.camera.centre_x_px, estimate.camera.centre_y_px}}};
   report["options"] = {{"separator", options.separator_name()},
-                       {"geometry", options.normals == NormalSource::kNet && !options.classical ? "net" : "mesh"},
-                       {"shading", options.shading == ShadingSource::kNet && !options.classical ? "net" : "regions"},
+                       {"geometry", normals_name(options.classical ? NormalSource::kMesh : options.normals)},
+                       {"shading", shading_name(options.classical ? ShadingSource::kRegions : options.shading)},
                        {"solver", lighting::solver_name(options.solve.solver)},
-                       {"prior", options.asks_prior() ? "net" : "smooth"},
+                       {"prior", prior_name(options.asks_prior() ? PriorSource::kNet : PriorSource::kSmooth)},
                        {"iterations", options.solve.iterations},
                        {"nside", options.solve.nside},
                        {"map_size_px", {options.map_width, options.map_width / 2}},

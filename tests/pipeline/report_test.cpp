@@ -1,5 +1,6 @@
 #include "faceprobe/pipeline/report.h"
 
+#include "faceprobe/core/resample.h"
 #include "faceprobe/core/version.h"
 #include "faceprobe/pipeline/outputs.h"
 #include "faceprobe/pipeline/overview.h"
@@ -133,6 +134,32 @@ TEST(Report, EveryFieldStandsInTheDocumentation) {
     EXPECT_TRUE(documented.contains({object, name})) << object << '.' << name << " is not in docs/report.md";
   for (const auto& [object, name] : documented)
     EXPECT_TRUE(written.contains({object, name})) << object << '.' << name << " of docs/report.md is in no report";
+}
+
+json sources_of(const io::Photo& photo, const EstimateOptions& options) {
+  const Estimate estimate = Estimator(options).estimate(photo);
+  EXPECT_EQ(estimate.faces.size(), 1U);
+  return json::parse(report_json(estimate, photo, options, "portrait.jpg")).at("faces")[0].at("sources");
+}
+
+// Not what the options ask for, which the report has too.
+TEST(Report, SaysWhatAFaceWasReadBy) {
+  const json all = {{"separator", "net"}, {"geometry", "net"}, {"shading", "net"}, {"prior", "net"}};
+  const json none = {{"separator", "tan"}, {"geometry", "mesh"}, {"shading", "regions"}, {"prior", "smooth"}};
+  EstimateOptions options;
+  options.max_patches = 50;
+  options.solve.nside = 4;
+  options.solve.iterations = 1;
+  EXPECT_EQ(sources_of(portrait(), options), all);
+  // The middle of the face alone: of the network its normals are used.
+  const Window middle{.left_px = 190, .top_px = 140, .width = 150, .height = 190};
+  io::Photo cut = portrait();
+  cut.linear = resampled(cut.linear, middle);
+  cut.clipped = resampled(cut.clipped, middle);
+  EXPECT_EQ(sources_of(cut, options),
+            json({{"separator", "yang"}, {"geometry", "net"}, {"shading", "regions"}, {"prior", "smooth"}}));
+  options.classical = highlight::Separator::kTan;
+  EXPECT_EQ(sources_of(portrait(), options), none);
 }
 
 TEST(Report, SourceNamesMayBeAnyBytes) {

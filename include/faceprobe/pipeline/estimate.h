@@ -94,10 +94,20 @@ struct LightResult {
   std::vector<lighting::MainLight> lights;  // by falling strength
 };
 
+// What a face was read by. That is less than the options ask for where the photo shows too little of it, or where the network's weights tell
+// highlights alone.
+struct FaceSources {
+  std::optional<highlight::Separator> classical;  // which took the highlights off; unset = the network
+  NormalSource normals = NormalSource::kMesh;
+  ShadingSource shading = ShadingSource::kRegions;
+  PriorSource prior = PriorSource::kSmooth;
+};
+
 struct FaceEstimate : LightResult {
   face::Face face;
   bool enough_shown =
       true;  // of the face, for the network's layers and the light prior; see EstimateOptions::least_shown
+  FaceSources sources;
   face::FaceGeometry geometry;   // crop
   Image picture;                 // the photo in the crop, linear
   ByteImage clipped;             // io::Photo flags in the crop
