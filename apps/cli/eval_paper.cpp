@@ -2,7 +2,9 @@
 
 #include "faceprobe/core/error.h"
 #include "faceprobe/core/version.h"
+#include "faceprobe/eval/earlier_rows.h"
 #include "faceprobe/io/atomic_file.h"
+#include "faceprobe/io/data_files.h"
 #include "faceprobe/synth/shard.h"
 #include "paper/plan.h"
 #include "paper/print_pdf.h"
@@ -89,6 +91,9 @@ std::string made_with(const PaperPlan& plan) {
 
 int run(PaperPlan plan) {
   require_data(plan);
+  constexpr std::int64_t kMostBytes = std::int64_t{1} << 28;
+  const eval::PaperReport earlier =
+      plan.earlier.empty() ? eval::PaperReport() : eval::report_from_json(io::read_text(plan.earlier, kMostBytes));
   io::create_folder(plan.output);
   plan.progress = PartProgress("synthetic faces");
   make_paper_faces(plan);
@@ -98,6 +103,10 @@ int run(PaperPlan plan) {
     Sections sections = cached_part(plan, key_of(plan, kParts[i].rivals), kParts[i].name, kParts[i].measure);
     std::move(sections.begin(), sections.end(), std::back_inserter(report.sections));
     spdlog::info("part {} of {}, {}: done", i + 1, kParts.size(), kParts[i].name);
+  }
+  if (!plan.earlier.empty()) {
+    const std::set<std::string> taken = eval::add_earlier_rows(report, earlier);
+    spdlog::info("{} rows from {}", taken.empty() ? "no" : std::to_string(taken.size()), plan.earlier.string());
   }
   const std::filesystem::path html = plan.output / "report.html";
   io::write_file_atomically(html, eval::report_html(report));
@@ -132,6 +141,12 @@ CLI::App* add_eval_paper(CLI::App& eval, Action& action) {
       ->add_option("--rivals", plan->rivals,
                    "folder of weights of rival networks, such as mscr.safetensors; default: no such rows")
       ->type_name("DIR");
+  command
+      ->add_option(
+          "--earlier", plan->earlier,
+          "report.json of an earlier run on the same photos, such as docs/results.json, for rows that this run "
+          "lacks; default: no such rows")
+      ->type_name("FILE");
   command->add_option("--threads", plan->threads, "threads; 0 = all processors")->capture_default_str();
   command->footer(
       "Writes report.html, .pdf, .json, .csv and .md. A run that was cut off goes on where it was; what was measured "

@@ -21,6 +21,8 @@ struct PaperPlan {
   std::filesystem::path training;
   // Weights of the rivals that are networks, trained on the same data (docs/training.md), NAME.safetensors each; empty = no such rows.
   std::filesystem::path rivals;
+  std::filesystem::path
+      earlier;  // report.json of an earlier run, for rows that this one lacks; empty = none (eval/earlier_rows.h)
   bool quick = false;  // few photos, for a look in minutes
   int threads = 0;
   std::function<void(int done, int total)> progress = {};  // within the part at hand

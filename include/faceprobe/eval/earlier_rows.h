@@ -1,0 +1,22 @@
+#pragma once
+// Rows that a report lacks, from an earlier report of the same measurement. Rivals whose weights take hours to train need not be trained again by
+// everybody who measures something else on the same photos.
+//
+//   const std::set<std::string> taken = add_earlier_rows(report, report_from_json(io::read_text("docs/results.json", kMostBytes)));
+//
+// Not for other photos: that they are the same is not taken on trust. A table takes rows only where a row that both reports have is the same to
+// the last digit but one, such as what an empty answer scores.
+
+#include "faceprobe/eval/paper_report.h"
+
+#include <set>
+#include <string>
+
+namespace faceprobe::eval {
+
+// Adds to each table of `report` the rows that the table of the same section and title in `earlier` has beside, with the note "earlier". Values of
+// columns that the table does not have are dropped, those of columns that the row does not have are missing. Sections say below their text which
+// rows came so, and no longer that these are missing. Plots stay as they are. Returns the names of the rows taken.
+std::set<std::string> add_earlier_rows(PaperReport& report, const PaperReport& earlier);
+
+}  // namespace faceprobe::eval

@@ -1,0 +1,111 @@
+#include "faceprobe/eval/earlier_rows.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace faceprobe::eval {
+namespace {
+
+constexpr const char* kNote = "earlier";
+constexpr double kSame = 1e-12;  // of a value: reports hold all digits, and the same program finds them all again
+
+template <class Items, class Key>
+auto find_by(Items& items, Key key, const std::string& wanted) {
+  return std::ranges::find_if(items, [&](const auto& item) { return item.*key == wanted; });
+}
+
+bool same_value(const std::optional<double>& a, const std::optional<double>& b) {
+  if (!a || !b) return !a && !b;
+  return std::abs(*a - *b) <= kSame * std::max(std::abs(*a), std::abs(*b));
+}
+
+// Each column's place in `earlier`, or nothing.
+std::vector<std::optional<std::size_t>> places_in(const ReportTable& table, const ReportTable& earlier) {
+  std::vector<std::optional<std::size_t>> places;
+  for (const std::string& column : table.columns) {
+    const auto found = std::ranges::find(earlier.columns, column);
+    places.push_back(found == earlier.columns.end()
+                         ? std::nullopt
+                         : std::optional(static_cast<std::size_t>(found - earlier.columns.begin())));
+  }
+  return places;
+}
+
+ReportTable::Row in_columns(const ReportTable::Row& row, const std::vector<std::optional<std::size_t>>& places) {
+  ReportTable::Row out{.name = row.name, .ours = row.ours, .note = row.note};
+  for (const std::optional<std::size_t>& place : places) {
+    out.values.push_back(place && *place < row.values.size() ? row.values[*place] : std::nullopt);
+    out.intervals.push_back(place && *place < row.intervals.size() ? row.intervals[*place] : std::nullopt);
+  }
+  return out;
+}
+
+// Whether some row that says anything is the same in both.
+bool same_photos(const ReportTable& table, const ReportTable& earlier,
+                 const std::vector<std::optional<std::size_t>>& places) {
+  return std::ranges::any_of(table.rows, [&](const ReportTable::Row& row) {
+    const auto before = find_by(earlier.rows, &ReportTable::Row::name, row.name);
+    if (before == earlier.rows.end()) return false;
+    const ReportTable::Row other = in_columns(*before, places);
+    bool says_something = false;
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      if (!places[k]) continue;
+      const std::optional<double> value = k < row.values.size() ? row.values[k] : std::nullopt;
+      if (!same_value(value, other.values[k])) return false;
+      says_something = says_something || (value && *value != 0);
+    }
+    return says_something;
+  });
+}
+
+void add_rows(ReportTable& table, const ReportTable& earlier, std::set<std::string>& taken) {
+  const std::vector<std::optional<std::size_t>> places = places_in(table, earlier);
+  if (!same_photos(table, earlier, places)) return;
+  for (const ReportTable::Row& row : earlier.rows) {
+    if (find_by(table.rows, &ReportTable::Row::name, row.name) != table.rows.end()) continue;
+    ReportTable::Row added = in_columns(row, places);
+    if (!std::string_view(added.note).ends_with(kNote))
+      added.note += added.note.empty() ? kNote : std::string(", ") + kNote;
+    taken.insert(added.name);
+    table.rows.push_back(std::move(added));
+  }
+}
+
+// "No row of NAME: ... " up to the next such sentence.
+void forget_missing(const std::string& name, std::string& missing) {
+  constexpr std::string_view kNoRow = "No row of ";
+  const std::size_t begin = missing.find(std::string(kNoRow) + name + ":");
+  if (begin == std::string::npos) return;
+  const std::size_t next = missing.find(kNoRow, begin + kNoRow.size());
+  missing.erase(begin, next == std::string::npos ? next : next - begin);
+  while (!missing.empty() && missing.back() == ' ') missing.pop_back();
+}
+
+std::string listed(const std::set<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : "; ") + name;
+  return text;
+}
+
+}  // namespace
+
+std::set<std::string> add_earlier_rows(PaperReport& report, const PaperReport& earlier) {
+  std::set<std::string> all;
+  for (ReportSection& section : report.sections) {
+    const auto before = find_by(earlier.sections, &ReportSection::id, section.id);
+    if (before == earlier.sections.end()) continue;
+    std::set<std::string> taken;
+    for (ReportTable& table : section.tables) {
+      const auto old = find_by(before->tables, &ReportTable::title, table.title);
+      if (old != before->tables.end()) add_rows(table, *old, taken);
+    }
+    if (taken.empty()) continue;
+    for (const std::string& name : taken) forget_missing(name, section.missing);
+    section.text +=
+        "\n\nRows marked as earlier were measured on the same photos by an earlier version: " + listed(taken) + ".";
+    all.insert(taken.begin(), taken.end());
+  }
+  return all;
+}
+
+}  // namespace faceprobe::eval

@@ -1,0 +1,67 @@
+#include "faceprobe/eval/earlier_rows.h"
+
+#include <gtest/gtest.h>
+
+namespace faceprobe::eval {
+namespace {
+
+PaperReport report_with(std::vector<ReportTable::Row> rows, std::string missing = {}) {
+  ReportTable table{.title = "RMSE", .columns = {"mean", "n"}, .rows = std::move(rows)};
+  return {.title = "Report",
+          .sections = {
+              {.id = "light", .title = "Light", .text = "Photos.", .tables = {table}, .missing = std::move(missing)}}};
+}
+
+const ReportTable::Row kEmpty{.name = "ambient", .values = {133.4, 100}, .intervals = {std::pair(125.0, 141.0)}};
+
+TEST(EarlierRows, AreAddedWhereACommonRowIsTheSame) {
+  PaperReport now =
+      report_with({{.name = "net", .values = {20, 100}, .ours = true}, kEmpty},
+                  "No row of rival, small: its weights, r.safetensors, are not there. No row of other: why.");
+  const PaperReport before = report_with({{.name = "net", .values = {32, 100}, .ours = true},
+                                          kEmpty,
+                                          {.name = "rival, small", .values = {45, 99}, .note = "1 missing"}});
+  EXPECT_EQ(add_earlier_rows(now, before), std::set<std::string>{"rival, small"});
+  const ReportSection& section = now.sections[0];
+  ASSERT_EQ(section.tables[0].rows.size(), 3U);
+  EXPECT_EQ(section.tables[0].rows[0].values[0], 20);  // its own figure stays
+  EXPECT_EQ(section.tables[0].rows[2].values[0], 45);
+  EXPECT_EQ(section.tables[0].rows[2].note, "1 missing, earlier");
+  EXPECT_EQ(section.missing, "No row of other: why.");
+  EXPECT_NE(section.text.find("earlier version: rival, small."), std::string::npos);
+  // Once more changes nothing.
+  const PaperReport once = now;
+  EXPECT_TRUE(add_earlier_rows(now, before).empty());
+  EXPECT_EQ(now, once);
+}
+
+TEST(EarlierRows, AreNotTakenFromOtherPhotos) {
+  ReportTable::Row other = kEmpty;
+  other.values[0] = 133.5;
+  PaperReport now = report_with({{.name = "net", .values = {20, 100}}, other});
+  const PaperReport same = now;
+  EXPECT_TRUE(add_earlier_rows(now, report_with({kEmpty, {.name = "rival", .values = {45, 100}}})).empty());
+  EXPECT_EQ(now, same);
+  // Rows without values, and tables without a common row, prove nothing.
+  PaperReport silent = report_with({{.name = "ambient", .values = {std::nullopt, 0}}});
+  EXPECT_TRUE(add_earlier_rows(silent, report_with({{.name = "ambient", .values = {std::nullopt, 0}},
+                                                    {.name = "rival", .values = {45, 100}}}))
+                  .empty());
+}
+
+TEST(EarlierRows, FollowTheColumnsByName) {
+  PaperReport now = report_with({kEmpty});
+  now.sections[0].tables[0].columns = {"n", "median", "mean"};
+  now.sections[0].tables[0].rows = {{.name = "ambient", .values = {100, 135, 133.4}}};
+  PaperReport before =
+      report_with({kEmpty, {.name = "rival", .values = {45, 99}, .intervals = {std::pair(40.0, 50.0)}}});
+  ASSERT_FALSE(add_earlier_rows(now, before).empty());
+  const ReportTable::Row& rival = now.sections[0].tables[0].rows[1];
+  EXPECT_EQ(rival.values[0], 99);
+  EXPECT_FALSE(rival.values[1]);
+  EXPECT_EQ(rival.values[2], 45);
+  EXPECT_EQ(rival.intervals[2], std::pair(40.0, 50.0));
+}
+
+}  // namespace
+}  // namespace faceprobe::eval
