@@ -20,8 +20,9 @@ int train_light(const train::TrainRun& options, const std::string& config) {
   run.folder = options.folder;
   run.threads = options.threads;
   const train::LightReport report = train::train_light(run, [](const train::LightRow& row, int epochs) {
-    spdlog::info("epoch {} of {}: diffuse {:.4f}, glossy {:.3f}; validation {:.4f}, {:.3f}", row.epoch, epochs,
-                 row.training.diffuse, row.training.glossy, row.validation.diffuse, row.validation.glossy);
+    spdlog::info("epoch {} of {}: diffuse {:.4f}, shape {:.4f}, glossy {:.3f}; validation {:.4f}, {:.4f}, {:.3f}",
+                 row.epoch, epochs, row.training.diffuse, row.training.shape, row.training.glossy,
+                 row.validation.diffuse, row.validation.shape, row.validation.glossy);
   });
   spdlog::info("wrote {}", report.weights.string());
   return 0;

@@ -2,6 +2,7 @@
 
 #include "faceprobe/core/color.h"
 #include "faceprobe/core/sphere_grid.h"
+#include "faceprobe/lighting/estimate.h"
 
 #include <algorithm>
 #include <array>
@@ -14,6 +15,9 @@ namespace {
 constexpr float kWidth = 0.14F;          // radians: half a cell's spacing
 constexpr float kLeastCosine = 0.85F;    // four widths
 constexpr float kEnoughWeight = 0.005F;  // of all patches: at this much a cell is half known
+
+constexpr float kBrightest = 30;        // of the surround, over the level: a bright wall behind a face in the dark
+constexpr float kBrightestLight = 300;  // of the solved light, over the level
 
 using Cells = Eigen::Matrix<float, kFeatureCells, 4, Eigen::RowMajor>;
 
@@ -54,6 +58,18 @@ const std::array<int, kFeatureCells>& mirror_table() {
   return table;
 }
 
+// What the physics alone make of it, coarsely.
+Eigen::VectorXf solved_features(const Observations& observations, float level) {
+  Observations open = observations;
+  open.horizon.resize(0, kHorizonAzimuths);
+  const SolveOptions options{.nside = 8, .iterations = 30, .threads = 1};
+  const Eigen::MatrixX3f light = solve_transport(open, options).radiance / level;
+  Eigen::Matrix<float, kFeatureCells, 3, Eigen::RowMajor> cells =
+      grid_from_grid(light, SphereGrid(options.nside), feature_grid());
+  cells = cells.cwiseMax(0.0F).cwiseMin(kBrightestLight).cwiseSqrt();
+  return Eigen::Map<const Eigen::VectorXf>(cells.data(), kSolvedFeatures);
+}
+
 }  // namespace
 
 float shading_level(const Observations& observations) {
@@ -86,9 +102,14 @@ Eigen::VectorXf face_features(const Observations& observations) {
   const float enough = kEnoughWeight * observations.weight.sum();
   finish(enough, 1, shading);
   finish(enough, kHighlightScale, highlight);
-  constexpr int kHalf = kFaceFeatures / 2;
+  constexpr int kHalf = kCellFeatures / 2;
   features.head<kHalf>() = Eigen::Map<const Eigen::VectorXf>(shading.data(), kHalf);
-  features.tail<kHalf>() = Eigen::Map<const Eigen::VectorXf>(highlight.data(), kHalf);
+  features.segment<kHalf>(kHalf) = Eigen::Map<const Eigen::VectorXf>(highlight.data(), kHalf);
+  Surround around = observations.surround;
+  around.leftCols<3>() = (around.leftCols<3>() / level).cwiseMin(kBrightest).cwiseSqrt();
+  features.segment<kSurroundFeatures>(kCellFeatures) =
+      Eigen::Map<const Eigen::VectorXf>(around.data(), kSurroundFeatures);
+  features.tail<kSolvedFeatures>() = solved_features(observations, level);
   return features;
 }
 
@@ -108,6 +129,13 @@ Eigen::VectorXf mirrored_features(const Eigen::VectorXf& features) {
       out.segment<4>(4 * (half * kFeatureCells + j)) = features.segment<4>(4 * (half * kFeatureCells + from));
     }
   }
+  const Surround around(features.data() + kCellFeatures);
+  const Surround turned = mirrored(around);
+  out.segment<kSurroundFeatures>(kCellFeatures) = Eigen::Map<const Eigen::VectorXf>(turned.data(), kSurroundFeatures);
+  using Solved = Eigen::Matrix<float, kFeatureCells, 3, Eigen::RowMajor>;
+  const Solved solved(features.data() + kCellFeatures + kSurroundFeatures);
+  const Solved turned_light = mirrored_cells(solved);
+  out.tail<kSolvedFeatures>() = Eigen::Map<const Eigen::VectorXf>(turned_light.data(), kSolvedFeatures);
   return out;
 }
 

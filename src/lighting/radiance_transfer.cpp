@@ -48,7 +48,7 @@ Eigen::MatrixX4f point_intensities(const Eigen::VectorXf& features) {
   if (features.size() != kFaceFeatures) throw std::invalid_argument("Intensities need all features of a face.");
   using Cells = Eigen::Map<const Eigen::Matrix<float, kFeatureCells, 4, Eigen::RowMajor>>;
   const Cells shading(features.data());
-  const Cells highlight(features.data() + kFaceFeatures / 2);
+  const Cells highlight(features.data() + kCellFeatures / 2);
   Eigen::MatrixX4f out = Eigen::MatrixX4f::Zero(kFeatureCells, 4);
   for (int j = 0; j < kFeatureCells; ++j) {
     const float known = shading(j, 3);

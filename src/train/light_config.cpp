@@ -19,6 +19,8 @@ constexpr auto kEachLightNumber = [](auto& config, const auto& visit) {
   visit("input_noise", config.input_noise, 0, 10);
   visit("grey_share", config.grey_share, 0, 1);
   visit("lobe_weight", config.lobe_weight, 0, 100);
+  visit("shape_weight", config.shape_weight, 0, 100);
+  visit("surround_drop", config.surround_drop, 0, 1);
   visit("seed", config.seed, 0, 1e18);
 };
 

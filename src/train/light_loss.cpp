@@ -42,10 +42,14 @@ LightLoss::Terms LightLoss::terms(const torch::Tensor& found, const torch::Tenso
   // make all other errors small.
   const torch::Tensor brightest = torch::maximum(ball.detach().amax({1, 2}, true), true_ball.amax({1, 2}, true));
   const torch::Tensor error = (ball - true_ball) / brightest;
+  const torch::Tensor shape = ball / ball.amax({1, 2}, true) - true_ball / true_ball.amax({1, 2}, true);
   const torch::Tensor glossy =
       (torch::matmul(lobe_rows_, found) + kFloor).log() - (torch::matmul(lobe_rows_, truth) + kFloor).log();
-  return {(error.square().mean({1, 2}) + kLeastSquare).sqrt().mean(),
-          (glossy.square() + kGlossCorner * kGlossCorner).sqrt().mean() - kGlossCorner};
+  const auto root_mean_square = [](const torch::Tensor& difference) {
+    return (difference.square().mean({1, 2}) + kLeastSquare).sqrt().mean();
+  };
+  return {root_mean_square(error), (glossy.square() + kGlossCorner * kGlossCorner).sqrt().mean() - kGlossCorner,
+          root_mean_square(shape)};
 }
 
 }  // namespace faceprobe::train

@@ -13,6 +13,7 @@ class LightLoss {
 
   struct Terms {
     torch::Tensor diffuse, glossy;  // means over the lights
+    torch::Tensor shape;  // the diffuse ball's again, each picture over its own brightest point, as the benchmark's object (light_metrics.h)
   };
   // N x cells x 3, > 0, of lighting::kFeatureNside, over one level for both.
   Terms terms(const torch::Tensor& found, const torch::Tensor& truth) const;

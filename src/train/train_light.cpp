@@ -21,7 +21,8 @@
 namespace faceprobe::train {
 namespace {
 
-constexpr double kDarkest = 1e-4;               // of the level
+constexpr double kDarkest = 1e-4;  // of the level
+constexpr std::int64_t kSolvedBegin = lighting::kCellFeatures + lighting::kSurroundFeatures;
 constexpr std::int64_t kExamplesAtOnce = 1024;  // examples validated together
 
 struct Examples {
@@ -71,26 +72,43 @@ torch::Tensor mirror_index() {
   return index;
 }
 
-torch::Tensor as_cells(const torch::Tensor& features) { return features.view({-1, 2, lighting::kFeatureCells, 4}); }
-
-Examples mirrored(const Examples& examples, const torch::Tensor& index) {
-  return {as_cells(examples.features).index_select(2, index).reshape_as(examples.features),
-          examples.light.index_select(1, index)};
+// Where in a list of features each number of the mirror image's is.
+torch::Tensor mirrored_feature_index() {
+  Eigen::VectorXf numbers(lighting::kFaceFeatures);
+  for (int i = 0; i < lighting::kFaceFeatures; ++i) numbers[i] = static_cast<float>(i);
+  const Eigen::VectorXf turned = lighting::mirrored_features(numbers);
+  torch::Tensor index = torch::empty({lighting::kFaceFeatures}, torch::kLong);
+  for (int i = 0; i < lighting::kFaceFeatures; ++i)
+    index.data_ptr<std::int64_t>()[i] = static_cast<std::int64_t>(turned[i]);
+  return index;
 }
 
-// Features are square roots of light: grey is the root of the luminance.
+torch::Tensor luminance_weights() {
+  return torch::tensor({kLuminanceWeights[0], kLuminanceWeights[1], kLuminanceWeights[2]});
+}
+
+// N x anything, in groups of `size` numbers that begin with three square roots of light: grey is the root of the luminance.
+torch::Tensor grey_groups(const torch::Tensor& features, std::int64_t size) {
+  const torch::Tensor groups = features.reshape({features.size(0), -1, size});
+  const torch::Tensor light =
+      (groups.narrow(2, 0, 3).square() * luminance_weights()).sum(2, true).sqrt().expand({-1, -1, 3});
+  return torch::cat({light, groups.narrow(2, 3, size - 3)}, 2).reshape_as(features);
+}
+
 Examples grey(const Examples& examples) {
-  const torch::Tensor weights = torch::tensor({kLuminanceWeights[0], kLuminanceWeights[1], kLuminanceWeights[2]});
-  const torch::Tensor cells = as_cells(examples.features);
-  const torch::Tensor light = (cells.narrow(3, 0, 3).square() * weights).sum(3, true).sqrt().expand({-1, -1, -1, 3});
-  const torch::Tensor level = (examples.light * weights).sum(2, true).expand_as(examples.light);
-  return {torch::cat({light, cells.narrow(3, 3, 1)}, 3).reshape_as(examples.features), level.contiguous()};
+  const torch::Tensor level = (examples.light * luminance_weights()).sum(2, true).expand_as(examples.light);
+  return {torch::cat({grey_groups(examples.features.narrow(1, 0, lighting::kCellFeatures), 4),
+                      grey_groups(examples.features.narrow(1, lighting::kCellFeatures, lighting::kSurroundFeatures), 5),
+                      grey_groups(examples.features.narrow(1, kSolvedBegin, lighting::kSolvedFeatures), 3)},
+                     1),
+          level.contiguous()};
 }
 
 class LightTraining {
  public:
   explicit LightTraining(const LightRun& run)
-      : config_(run.config), data_(read_examples(run.data)), mirror_(mirror_index()), net_(make_net(run.config)) {
+      : config_(run.config), data_(read_examples(run.data)), mirror_(mirror_index()),
+        mirror_features_(mirrored_feature_index()), net_(make_net(run.config)) {
     if (!run.validation_data.empty()) validation_ = read_examples(run.validation_data);
     net_->standardise(data_.features);
     start_at_median();
@@ -109,6 +127,7 @@ class LightTraining {
       torch::manual_seed(config_.seed ^ (static_cast<std::uint64_t>(done) << 20U));
       const LightLoss::Terms terms = one_step(batch(order, step), done);
       row.training.diffuse += terms.diffuse.item<double>() / static_cast<double>(steps);
+      row.training.shape += terms.shape.item<double>() / static_cast<double>(steps);
       row.training.glossy += terms.glossy.item<double>() / static_cast<double>(steps);
     }
     average_->swap(*net_);
@@ -158,7 +177,8 @@ class LightTraining {
       index.data_ptr<std::int64_t>()[i] = order[static_cast<std::size_t>(first + i)];
     Examples out{data_.features.index_select(0, index), data_.light.index_select(0, index)};
     const torch::Tensor turned = torch::rand({count}) < 0.5;
-    out = chosen(turned, mirrored(out, mirror_), out);
+    const Examples mirrored{out.features.index_select(1, mirror_features_), out.light.index_select(1, mirror_)};
+    out = chosen(turned, mirrored, out);
     return chosen(torch::rand({count}) < config_.grey_share, grey(out), out);
   }
 
@@ -175,8 +195,15 @@ class LightTraining {
     torch::Tensor features = examples.features + config_.input_noise * spread * torch::randn_like(examples.features);
     const torch::Tensor kept = torch::rand_like(features) >= config_.input_drop;
     features = torch::where(kept, features, net_->named_buffers()["mean"].expand_as(features));
+    // Cut out, or the face fills the photo: nothing is known then, which is zero.
+    const torch::Tensor alone = torch::rand({features.size(0), 1}) < config_.surround_drop;
+    features =
+        torch::cat({features.narrow(1, 0, lighting::kCellFeatures),
+                    features.narrow(1, lighting::kCellFeatures, lighting::kSurroundFeatures).masked_fill(alone, 0),
+                    features.narrow(1, kSolvedBegin, lighting::kSolvedFeatures)},
+                   1);
     const LightLoss::Terms terms = loss_.terms(light_of(features), examples.light);
-    (terms.diffuse + config_.lobe_weight * terms.glossy).backward();
+    (terms.diffuse + config_.shape_weight * terms.shape + config_.lobe_weight * terms.glossy).backward();
     constexpr double kLargestGradient = 1;
     torch::nn::utils::clip_grad_norm_(net_->parameters(), kLargestGradient);
     optimizer_.step();
@@ -198,6 +225,7 @@ class LightTraining {
           loss_.terms(light_of(examples.features.narrow(0, first, count)), examples.light.narrow(0, first, count));
       const double share = static_cast<double>(count) / static_cast<double>(examples.count());
       sum.diffuse += share * terms.diffuse.item<double>();
+      sum.shape += share * terms.shape.item<double>();
       sum.glossy += share * terms.glossy.item<double>();
     }
     return sum;
@@ -205,7 +233,7 @@ class LightTraining {
 
   LightConfig config_;
   Examples data_, validation_;
-  torch::Tensor mirror_;
+  torch::Tensor mirror_, mirror_features_;
   net::LightMlp net_;
   LightLoss loss_;
   torch::optim::AdamW optimizer_{
@@ -216,10 +244,10 @@ class LightTraining {
 
 std::string csv(const std::vector<LightRow>& rows) {
   std::ostringstream text;
-  text << "epoch,diffuse,glossy,validation_diffuse,validation_glossy\n";
+  text << "epoch,diffuse,shape,glossy,validation_diffuse,validation_shape,validation_glossy\n";
   for (const LightRow& row : rows) {
-    text << row.epoch << ',' << row.training.diffuse << ',' << row.training.glossy << ',' << row.validation.diffuse
-         << ',' << row.validation.glossy << '\n';
+    text << row.epoch << ',' << row.training.diffuse << ',' << row.training.shape << ',' << row.training.glossy << ','
+         << row.validation.diffuse << ',' << row.validation.shape << ',' << row.validation.glossy << '\n';
   }
   return text.str();
 }

@@ -28,6 +28,8 @@ struct LightConfig {
   double input_noise = 0.1;       // of standardised inputs
   double grey_share = 0.05;       // of examples without colour
   double lobe_weight = 0.15;      // of the glossy ball's error against the diffuse ball's
+  double shape_weight = 0;        // of the diffuse ball's where each picture is over its own brightest point
+  double surround_drop = 0.2;     // share of examples that are shown nothing of what is around the face
   std::uint64_t seed = 1;
 
   // Empty when usable, else a sentence that says which value is wrong.
@@ -40,7 +42,9 @@ std::string to_json(const LightConfig& config);
 // Means over examples.
 struct LightErrors {
   double diffuse = 0;  // root mean square error of a white ball's front over its brightest point
-  double glossy = 0;   // mean absolute error of the logarithm of the light seen in a rough mirror ball, all around
+  double shape =
+      0;  // the same of each picture over its own brightest point: no level counts, as in the relighting benchmark
+  double glossy = 0;  // mean absolute error of the logarithm of the light seen in a rough mirror ball, all around
 };
 
 struct LightRow {
