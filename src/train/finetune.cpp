@@ -212,9 +212,7 @@ class Finetuning {
   void set_rate(std::int64_t step) {
     constexpr double kFinalShare = 0.01;
     const double done = static_cast<double>(step) / static_cast<double>(run_.config.steps);
-    const double share = half_cosine(done, kFinalShare);
-    for (torch::optim::OptimizerParamGroup& group : optimizer_.param_groups())
-      static_cast<torch::optim::AdamWOptions&>(group.options()).lr(share * run_.config.learning_rate);
+    set_learning_rate(optimizer_, run_.config.learning_rate * half_cosine(done, kFinalShare));
   }
 
   // What the network took off these photos before it was finetuned.

@@ -3,6 +3,8 @@
 #include "faceprobe/core/angles.h"
 #include "faceprobe/train/config.h"
 
+#include <torch/torch.h>
+#include <algorithm>
 #include <cmath>
 
 namespace faceprobe::train {
@@ -20,6 +22,11 @@ inline double learning_rate_at(const TrainConfig& config, std::int64_t step) {
   const auto rest = static_cast<double>(std::max<std::int64_t>(1, config.steps - config.warm_up));
   const double done = std::min(1.0, static_cast<double>(step - config.warm_up) / rest);
   return config.learning_rate * half_cosine(done, config.final_share);
+}
+
+// The same for all weights: libtorch keeps one for each group of them.
+inline void set_learning_rate(torch::optim::Optimizer& optimizer, double rate) {
+  for (torch::optim::OptimizerParamGroup& group : optimizer.param_groups()) group.options().set_lr(rate);
 }
 
 }  // namespace faceprobe::train

@@ -131,9 +131,7 @@ class Training {
     const TrainConfig& config = run_.config;
     // Dropout depends on the seed and the step alone, so that a resumed run drops the same.
     torch::manual_seed(config.seed ^ (static_cast<std::uint64_t>(state_.step) << 20U));
-    const double rate = learning_rate_at(config, state_.step);
-    for (torch::optim::OptimizerParamGroup& group : optimizer_.param_groups())
-      static_cast<torch::optim::AdamWOptions&>(group.options()).lr(rate);
+    set_learning_rate(optimizer_, learning_rate_at(config, state_.step));
     optimizer_.zero_grad();
     const torch::Tensor loss = model_.loss(batch, config.loss);
     loss.backward();

@@ -123,7 +123,8 @@ class LightTraining {
     row.epoch = number + 1;
     for (std::int64_t step = 0; step < steps; ++step) {
       const std::int64_t done = number * steps + step;
-      set_rate(static_cast<double>(done) / static_cast<double>(config_.epochs * steps));
+      const double share = static_cast<double>(done) / static_cast<double>(config_.epochs * steps);
+      set_learning_rate(optimizer_, config_.learning_rate * half_cosine(share, 0));
       torch::manual_seed(config_.seed ^ (static_cast<std::uint64_t>(done) << 20U));
       const LightLoss::Terms terms = one_step(batch(order, step), done);
       row.training.diffuse += terms.diffuse.item<double>() / static_cast<double>(steps);
@@ -161,12 +162,6 @@ class LightTraining {
     net_->named_parameters()[last + ".weight"].mul_(kSmall);
     const torch::Tensor median = std::get<0>(data_.light.log().median(0));
     net_->named_parameters()[last + ".bias"].copy_(median.reshape({-1}));
-  }
-
-  void set_rate(double share) {
-    const double rate = config_.learning_rate * half_cosine(share, 0);
-    for (torch::optim::OptimizerParamGroup& group : optimizer_.param_groups())
-      static_cast<torch::optim::AdamWOptions&>(group.options()).lr(rate);
   }
 
   Examples batch(const std::vector<int>& order, std::int64_t step) const {

@@ -49,7 +49,8 @@ class RegressorTraining {
     row.epoch = number + 1;
     for (std::int64_t step = 0; step < steps; ++step) {
       const std::int64_t done = number * steps + step;
-      set_rate(static_cast<double>(done) / static_cast<double>(config_.epochs * steps));
+      const double share = static_cast<double>(done) / static_cast<double>(config_.epochs * steps);
+      set_learning_rate(optimizer_, config_.learning_rate * half_cosine(share, 0));
       torch::manual_seed(config_.seed ^ (static_cast<std::uint64_t>(done) << 20U));
       row.loss += one_step(order, step, done) / static_cast<double>(steps);
     }
@@ -83,12 +84,6 @@ class RegressorTraining {
   }
 
  private:
-  void set_rate(double share) {
-    const double rate = config_.learning_rate * half_cosine(share, 0);
-    for (torch::optim::OptimizerParamGroup& group : optimizer_.param_groups())
-      static_cast<torch::optim::AdamWOptions&>(group.options()).lr(rate);
-  }
-
   double one_step(const std::vector<int>& order, std::int64_t step, std::int64_t done) {
     const std::int64_t first = step * config_.batch;
     const std::int64_t count = std::min<std::int64_t>(config_.batch, training_.count() - first);

@@ -65,7 +65,8 @@ class SkyTraining {
     net_->train();
     for (std::int64_t step = 0; step < steps; ++step) {
       const std::int64_t done = number * steps + step;
-      set_rate(static_cast<double>(done) / static_cast<double>(config_.epochs * steps));
+      const double share = static_cast<double>(done) / static_cast<double>(config_.epochs * steps);
+      set_learning_rate(optimizer_, config_.learning_rate * half_cosine(share, 0));
       torch::manual_seed(config_.seed ^ (static_cast<std::uint64_t>(done) << 20U));
       const Terms terms = one_step(batch(order, step));
       row.training.sun += terms.sun.item<double>() / static_cast<double>(steps);
@@ -106,12 +107,6 @@ class SkyTraining {
   static net::SkyCnn make_net(const SkyConfig& config) {
     torch::manual_seed(config.seed);
     return net::SkyCnn(sky_cnn_options(config));
-  }
-
-  void set_rate(double share) {
-    const double rate = config_.learning_rate * half_cosine(share, 0);
-    for (torch::optim::OptimizerParamGroup& group : optimizer_.param_groups())
-      static_cast<torch::optim::AdamWOptions&>(group.options()).lr(rate);
   }
 
   static Batch examples_at(const SkyExamples& from, const torch::Tensor& index) {
