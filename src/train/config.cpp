@@ -1,88 +1,69 @@
 #include "faceprobe/train/config.h"
 
-#include "faceprobe/core/error.h"
-
-#include <nlohmann/json.hpp>
-#include <type_traits>
+#include "train/config_fields.h"
 
 namespace faceprobe::train {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Limits {
-  double low = 0, high = 0;
-  const char* allowed = nullptr;
+// The network's options: an object, which the config keeps as text.
+template <class Text>
+struct ObjectText {
+  Text& text;
 };
-constexpr Limits kCount{1, 1e9, "1 to 1e9"};
-constexpr Limits kShare{0, 1, "0 to 1"};
-constexpr Limits kWeight{0, 100, "0 to 100"};
-constexpr Limits kAny{};  // of what is no number, or any number
+template <class Text>
+ObjectText(Text&) -> ObjectText<Text>;
 
-// Calls visit(key, value, limits) for every field, so that reading, writing and checking cannot differ.
-template <class Config, class Visit>
-void each_field(Config& config, const Visit& visit) {
-  visit("architecture", config.architecture, kAny);
-  visit("picture_px", config.picture_px, Limits{0, 1024, "0 to 1024"});
-  visit("batch", config.batch, Limits{1, 4096, "1 to 4096"});
-  visit("steps", config.steps, kCount);
-  visit("learning_rate", config.learning_rate, Limits{1e-9, 1, "1e-9 to 1"});
-  visit("weight_decay", config.weight_decay, kShare);
-  visit("warm_up", config.warm_up, Limits{0, 1e9, "0 to 1e9"});
-  visit("final_share", config.final_share, kShare);
-  visit("average_decay", config.average_decay, Limits{0, 0.999999, "0 to 0.999999"});
-  visit("largest_gradient", config.largest_gradient, Limits{1e-6, 1e6, "1e-6 to 1e6"});
-  visit("seed", config.seed, kAny);
-  visit("validate_every", config.validate_every, kCount);
-  visit("validation_samples", config.validation_samples, Limits{1, 1e6, "1 to 1e6"});
-  visit("save_every", config.save_every, kCount);
-  visit("mirror", config.augment.mirror, kAny);
-  visit("colour_deviation", config.augment.colour_deviation, kShare);
-  visit("exposure_deviation", config.augment.exposure_deviation, Limits{0, 2, "0 to 2"});
-  visit("grey_share", config.augment.grey_share, kShare);
-  visit("no_mask_share", config.augment.no_mask_share, kShare);
-  visit("occluder_share", config.augment.occluder_share, kShare);
-  visit("zoom_share", config.augment.zoom_share, kShare);
-  visit("close_share", config.augment.close_share, kShare);
-  visit("cut_share", config.augment.cut_share, kShare);
-  visit("loss_encoded", config.loss.encoded, kWeight);
-  visit("loss_gradient", config.loss.gradient, kWeight);
-  visit("loss_rms", config.loss.rms, kWeight);
-  visit("loss_similarity", config.loss.similarity, kWeight);
-  visit("loss_elsewhere", config.loss.elsewhere, kShare);
-  visit("loss_normal", config.loss.normal, kWeight);
-  visit("loss_spread", config.loss.spread, kWeight);
-  visit("loss_depth", config.loss.depth, kWeight);
-  visit("loss_region", config.loss.region, kWeight);
-  visit("loss_rare", config.loss.rare, kWeight);
-  visit("loss_shading", config.loss.shading, kWeight);
-  visit("loss_colour", config.loss.colour, kWeight);
+void from_json(const Json& json, const ObjectText<std::string>& object) {
+  json.get_ref<const Json::object_t&>();  // throws what nlohmann throws for a value of another type
+  object.text = json.dump();
 }
+void to_json(Json& json, const ObjectText<const std::string>& object) { json = Json::parse(object.text); }
 
-[[noreturn]] void refuse(const std::string& what) { throw Error(ExitCode::kUsage, "The training config " + what); }
-
-std::string known_keys() {
-  const TrainConfig config;
-  std::string keys = "network";
-  each_field(config, [&](const char* key, const auto&, const Limits&) { keys += std::string(", ") + key; });
-  return keys;
-}
-
-std::string outside(const char* name, double value, const char* allowed) {
-  return "The training config's " + std::string(name) + " is " + Json(value).dump() + "; allowed is " + allowed + ".";
-}
+constexpr auto kEachTrainField = [](auto& config, const auto& visit) {
+  visit("architecture", config.architecture);
+  visit("picture_px", config.picture_px, 0, 1024);
+  visit("batch", config.batch, 1, 4096);
+  visit("steps", config.steps, 1, 1e9);
+  visit("learning_rate", config.learning_rate, 1e-9, 1);
+  visit("weight_decay", config.weight_decay, 0, 1);
+  visit("warm_up", config.warm_up, 0, 1e9);
+  visit("final_share", config.final_share, 0, 1);
+  visit("average_decay", config.average_decay, 0, 0.999999);
+  visit("largest_gradient", config.largest_gradient, 1e-6, 1e6);
+  visit("seed", config.seed);
+  visit("validate_every", config.validate_every, 1, 1e9);
+  visit("validation_samples", config.validation_samples, 1, 1e6);
+  visit("save_every", config.save_every, 1, 1e9);
+  visit("mirror", config.augment.mirror);
+  visit("colour_deviation", config.augment.colour_deviation, 0, 1);
+  visit("exposure_deviation", config.augment.exposure_deviation, 0, 2);
+  visit("grey_share", config.augment.grey_share, 0, 1);
+  visit("no_mask_share", config.augment.no_mask_share, 0, 1);
+  visit("occluder_share", config.augment.occluder_share, 0, 1);
+  visit("zoom_share", config.augment.zoom_share, 0, 1);
+  visit("close_share", config.augment.close_share, 0, 1);
+  visit("cut_share", config.augment.cut_share, 0, 1);
+  visit("loss_encoded", config.loss.encoded, 0, 100);
+  visit("loss_gradient", config.loss.gradient, 0, 100);
+  visit("loss_rms", config.loss.rms, 0, 100);
+  visit("loss_similarity", config.loss.similarity, 0, 100);
+  visit("loss_elsewhere", config.loss.elsewhere, 0, 1);
+  visit("loss_normal", config.loss.normal, 0, 100);
+  visit("loss_spread", config.loss.spread, 0, 100);
+  visit("loss_depth", config.loss.depth, 0, 100);
+  visit("loss_region", config.loss.region, 0, 100);
+  visit("loss_rare", config.loss.rare, 0, 100);
+  visit("loss_shading", config.loss.shading, 0, 100);
+  visit("loss_colour", config.loss.colour, 0, 100);
+  visit("network", ObjectText{config.network});
+};
 
 }  // namespace
 
 std::string TrainConfig::validate() const {
-  std::string problem;
-  each_field(*this, [&](const char* key, const auto& value, const Limits& limits) {
-    if constexpr (std::is_arithmetic_v<std::decay_t<decltype(value)>>) {
-      const auto number = static_cast<double>(value);
-      if (problem.empty() && limits.allowed != nullptr && !(number >= limits.low && number <= limits.high))
-        problem = outside(key, number, limits.allowed);
-    }
-  });
+  std::string problem = limits_problem("training", *this, kEachTrainField);
   if (!problem.empty()) return problem;
   if (architecture != "unet" && architecture != "face" && architecture != "mscr" && architecture != "shi") {
     return "The training config's architecture is \"" + architecture + "\"; there are unet, face, mscr and shi.";
@@ -95,40 +76,9 @@ std::string TrainConfig::validate() const {
 }
 
 TrainConfig train_config_from_json(const std::string& text) {
-  const Json json = Json::parse(text, nullptr, false);
-  if (!json.is_object()) refuse("is not a JSON object.");
-  TrainConfig config;
-  std::size_t found = 0;
-  each_field(config, [&](const char* key, auto& value, const Limits&) {
-    if (!json.contains(key)) return;
-    ++found;
-    try {
-      json.at(key).get_to(value);
-    } catch (const nlohmann::json::exception&) {
-      refuse(std::string("has ") + json.at(key).dump() + " for " + key + ", which is not of its type.");
-    }
-  });
-  if (json.contains("network")) {
-    ++found;
-    if (!json["network"].is_object()) refuse("has a network that is no JSON object.");
-    config.network = json["network"].dump();
-  }
-  if (found != json.size()) {
-    for (const auto& [key, value] : json.items()) {
-      bool known = key == "network";
-      each_field(config, [&](const char* name, const auto&, const Limits&) { known = known || key == name; });
-      if (!known) refuse("has the key \"" + key + "\"; there are: " + known_keys() + ".");
-    }
-  }
-  if (const std::string problem = config.validate(); !problem.empty()) throw Error(ExitCode::kUsage, problem);
-  return config;
+  return fields_from_json("training", text, TrainConfig(), kEachTrainField);
 }
 
-std::string to_json(const TrainConfig& config) {
-  Json json;
-  each_field(config, [&](const char* key, const auto& value, const Limits&) { json[key] = value; });
-  json["network"] = Json::parse(config.network);
-  return json.dump(1);
-}
+std::string to_json(const TrainConfig& config) { return fields_to_json(config, kEachTrainField); }
 
 }  // namespace faceprobe::train

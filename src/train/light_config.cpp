@@ -1,14 +1,14 @@
 #include "faceprobe/train/train_light.h"
 
-#include "train/number_config.h"
+#include "train/config_fields.h"
 
 #include <algorithm>
 
 namespace faceprobe::train {
 namespace {
 
-// Calls visit(key, value, low, high) for every number.
-constexpr auto kEachLightNumber = [](auto& config, const auto& visit) {
+constexpr auto kEachLightField = [](auto& config, const auto& visit) {
+  visit("hidden", config.hidden);
   visit("batch", config.batch, 1, 65536);
   visit("epochs", config.epochs, 1, 100'000);
   visit("learning_rate", config.learning_rate, 1e-9, 1);
@@ -24,12 +24,10 @@ constexpr auto kEachLightNumber = [](auto& config, const auto& visit) {
   visit("seed", config.seed, 0, 1e18);
 };
 
-const NumberConfig<LightConfig> kLightForm{"light", "hidden", &LightConfig::hidden};
-
 }  // namespace
 
 std::string LightConfig::validate() const {
-  std::string problem = number_problem(kLightForm, *this, kEachLightNumber);
+  std::string problem = limits_problem("light", *this, kEachLightField);
   const bool sizes = std::ranges::all_of(hidden, [](int size) { return size >= 1 && size <= 16384; });
   if (problem.empty() && (hidden.empty() || hidden.size() > 8 || !sizes))
     problem = "The light config's hidden must list 1 to 8 sizes of 1 to 16384.";
@@ -37,9 +35,9 @@ std::string LightConfig::validate() const {
 }
 
 LightConfig light_config_from_json(const std::string& text) {
-  return numbers_from_json(kLightForm, text, LightConfig(), kEachLightNumber);
+  return fields_from_json("light", text, LightConfig(), kEachLightField);
 }
 
-std::string to_json(const LightConfig& config) { return numbers_to_json(kLightForm, config, kEachLightNumber); }
+std::string to_json(const LightConfig& config) { return fields_to_json(config, kEachLightField); }
 
 }  // namespace faceprobe::train

@@ -1,12 +1,12 @@
 #include "faceprobe/train/train_regressor.h"
 
-#include "train/number_config.h"
+#include "train/config_fields.h"
 
 namespace faceprobe::train {
 namespace {
 
-// Calls visit(key, value, low, high) for every number.
-constexpr auto kEachRegressorNumber = [](auto& config, const auto& visit) {
+constexpr auto kEachRegressorField = [](auto& config, const auto& visit) {
+  visit("widths", config.widths);
   visit("picture_px", config.picture_px, 8, 512);
   visit("features", config.features, 1, 512);
   visit("light_size", config.light_size, 1, 64);
@@ -27,8 +27,6 @@ constexpr auto kEachRegressorNumber = [](auto& config, const auto& visit) {
   visit("seed", config.seed, 0, 1e18);
 };
 
-const NumberConfig<RegressorConfig> kRegressorForm{"regressor", "widths", &RegressorConfig::widths};
-
 }  // namespace
 
 RegressorConfig gardner_config() { return {}; }
@@ -41,14 +39,12 @@ RegressorConfig legendre_config() {
   return config;
 }
 
-std::string RegressorConfig::validate() const { return number_problem(kRegressorForm, *this, kEachRegressorNumber); }
+std::string RegressorConfig::validate() const { return limits_problem("regressor", *this, kEachRegressorField); }
 
 RegressorConfig regressor_config_from_json(const std::string& text, const RegressorConfig& usual) {
-  return numbers_from_json(kRegressorForm, text, usual, kEachRegressorNumber);
+  return fields_from_json("regressor", text, usual, kEachRegressorField);
 }
 
-std::string to_json(const RegressorConfig& config) {
-  return numbers_to_json(kRegressorForm, config, kEachRegressorNumber);
-}
+std::string to_json(const RegressorConfig& config) { return fields_to_json(config, kEachRegressorField); }
 
 }  // namespace faceprobe::train

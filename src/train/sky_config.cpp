@@ -1,14 +1,14 @@
 #include "faceprobe/train/train_sky.h"
 
-#include "train/number_config.h"
+#include "train/config_fields.h"
 
 #include <algorithm>
 
 namespace faceprobe::train {
 namespace {
 
-// Calls visit(key, value, low, high) for every number.
-constexpr auto kEachSkyNumber = [](auto& config, const auto& visit) {
+constexpr auto kEachSkyField = [](auto& config, const auto& visit) {
+  visit("widths", config.widths);
   visit("px", config.px, 32, 512);
   visit("hidden", config.hidden, 1, 2048);
   visit("crops_per_map", config.crops_per_map, 2, 4096);
@@ -27,12 +27,10 @@ constexpr auto kEachSkyNumber = [](auto& config, const auto& visit) {
   visit("seed", config.seed, 0, 1e18);
 };
 
-const NumberConfig<SkyConfig> kSkyForm{"sky", "widths", &SkyConfig::widths};
-
 }  // namespace
 
 std::string SkyConfig::validate() const {
-  std::string problem = number_problem(kSkyForm, *this, kEachSkyNumber);
+  std::string problem = limits_problem("sky", *this, kEachSkyField);
   const bool sizes = std::ranges::all_of(widths, [](int size) { return size >= 1 && size <= 2048; });
   if (problem.empty() && (widths.size() != 7 || !sizes))
     problem = "The sky config's widths must list 7 sizes of 1 to 2048.";
@@ -44,9 +42,9 @@ std::string SkyConfig::validate() const {
 }
 
 SkyConfig sky_config_from_json(const std::string& text) {
-  return numbers_from_json(kSkyForm, text, SkyConfig(), kEachSkyNumber);
+  return fields_from_json("sky", text, SkyConfig(), kEachSkyField);
 }
 
-std::string to_json(const SkyConfig& config) { return numbers_to_json(kSkyForm, config, kEachSkyNumber); }
+std::string to_json(const SkyConfig& config) { return fields_to_json(config, kEachSkyField); }
 
 }  // namespace faceprobe::train

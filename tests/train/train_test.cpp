@@ -143,9 +143,10 @@ TEST(TrainConfig, SaysWhatIsWrong) {
   refused("[1]", "not a JSON object");
   refused(R"({"batches": 3})", "\"batches\"");
   refused(R"({"batch": "many"})", "batch");
-  refused(R"({"batch": 0})", "1 to 4096");
+  refused(R"({"batch": 0})", "is 0; allowed is 1 to 4096");
   refused(R"({"learning_rate": 2})", "1e-9 to 1");
   refused(R"({"architecture": "vgg"})", "unet, face, mscr and shi");
+  refused(R"({"network": [8, 8]})", "[8,8] for network");
   const TrainConfig config = train_config_from_json(R"({"batch": 3, "network": {"widths": [8, 8]}})");
   EXPECT_EQ(config.batch, 3);
   EXPECT_EQ(to_json(train_config_from_json(to_json(config))), to_json(config));
