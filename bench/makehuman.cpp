@@ -66,7 +66,7 @@ void run(const Options& options) {
     throw Error(ExitCode::kModel, "Blender did not finish; see " + log_file.string() +
                                       ". It needs Blender 3.x with Cycles, and NumPy (Debian's python3-numpy).");
   }
-  const face::FaceFinder finder({.min_face_px = 30});
+  const face::FaceFinder finder({.min_face_px = face::kSmallFacePx});
   const face::CanonicalMesh mesh = face::load_canonical_mesh(io::data_file("canonical-face-model.obj"));
   std::vector<synth::ViewSamples> views;
   for (int number = 0; number < options.count; ++number) {

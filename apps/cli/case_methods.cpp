@@ -101,11 +101,10 @@ eval::CaseMethod program_method(const std::string& named, int limit_s) {
 }
 
 eval::CaseMethod own_method(const OwnMethod& own) {
-  constexpr int kLeastFacePx = 30;  // cases may be small
   pipeline::EstimateOptions options;
   options.weights = own.weights;
   options.prior_weights = own.prior;
-  options.finder.min_face_px = kLeastFacePx;
+  options.finder.min_face_px = face::kSmallFacePx;
   options.threads = own.threads;
   std::string identity = program_identity();
   for (const fs::path& file : {own.weights.empty() ? io::find_data("face.safetensors") : own.weights,

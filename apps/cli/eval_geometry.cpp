@@ -113,7 +113,8 @@ std::string report(const eval::GeometryScores& scores, const EvalOptions& option
 
 int eval_geometry(const EvalOptions& options) {
   const synth::ShardReader faces(options.data);
-  auto finder = std::make_shared<face::FaceFinder>(face::FinderOptions{.min_face_px = 30, .threads = options.threads});
+  auto finder = std::make_shared<face::FaceFinder>(
+      face::FinderOptions{.min_face_px = face::kSmallFacePx, .threads = options.threads});
   std::vector<eval::GeometryMethod> methods = {eval::mesh_method(finder)};
   for (const std::string& weights : options.weights) methods.push_back(network(weights, options.threads));
   const eval::GeometryScores scores =

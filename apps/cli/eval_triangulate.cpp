@@ -23,11 +23,10 @@ Eigen::Vector3d between_eyes(const face::Face& face) {
 }
 
 eval::LookAtGroup estimate_of(const EvalOptions& options) {
-  constexpr int kLeastFacePx = 30;
   pipeline::EstimateOptions wanted;
   if (!options.weights.empty()) wanted.weights = name_and_file(options.weights[0]).second;
   wanted.prior_weights = options.prior;
-  wanted.finder.min_face_px = kLeastFacePx;
+  wanted.finder.min_face_px = face::kSmallFacePx;
   wanted.threads = options.threads;
   return [wanted](const eval::PhotoInput& input) {
     // The camera's focal length is known, as from EXIF: without it all distances are off by its error.

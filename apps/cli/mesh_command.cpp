@@ -16,8 +16,7 @@ struct Options {
 };
 
 int run(const Options& options) {
-  constexpr int kLeastFacePx = 30;  // in pictures of 128
-  const face::FaceFinder finder({.min_face_px = kLeastFacePx, .threads = options.threads});
+  const face::FaceFinder finder({.min_face_px = face::kSmallFacePx, .threads = options.threads});
   const bool terminal = isatty(STDERR_FILENO) != 0;
   const pipeline::MeshCount count = pipeline::find_meshes(options.folder, finder, [terminal](int done, int total) {
     if (terminal) fmt::print(stderr, "\r{} of {} shards{}", done, total, done == total ? "\n" : "");

@@ -25,11 +25,10 @@ const FaceEstimate* SharedEstimate::of(const eval::LightInput& input) {
 }
 
 pipeline::EstimateOptions estimate_options(const RelightRows& rows) {
-  constexpr int kLeastFacePx = 30;  // in pictures of 128
   pipeline::EstimateOptions options;
   options.weights = rows.weights;
   options.prior_weights = rows.prior;
-  options.finder.min_face_px = kLeastFacePx;
+  options.finder.min_face_px = face::kSmallFacePx;
   options.solve.nside = rows.nside;
   options.solve.threads = rows.threads;
   options.threads = rows.threads;

@@ -11,8 +11,6 @@ namespace faceprobe::cli {
 
 namespace {
 
-constexpr int kLeastFacePx = 30;  // in pictures of 128, as `faceprobe mesh`
-
 // The recipes of docs/training.md; a quick run makes fewer of the same.
 synth::Recipe faces_recipe(bool quick) {
   return {.count = quick ? 256 : 2000, .size_px = 128, .seed = 2, .split = synth::Split::kDev};
@@ -58,7 +56,7 @@ void make_paper_faces(PaperPlan& plan) {
           if (plan.progress) plan.progress(state.samples_done, state.samples_total);
         });
     if (set.meshes) {
-      const face::FaceFinder finder({.min_face_px = kLeastFacePx, .threads = plan.threads});
+      const face::FaceFinder finder({.min_face_px = face::kSmallFacePx, .threads = plan.threads});
       pipeline::find_meshes(folder, finder);
     }
     spdlog::info("{}: {} synthetic photos", folder.string(), report.state.samples_done);

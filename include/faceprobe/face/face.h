@@ -52,6 +52,9 @@ struct Face {
   Eigen::Vector3d position_m() const { return camera_from_face.translation(); }  // canonical origin, between the ears
 };
 
+// min_face_px for synthetic pictures: their sides may be no more than 128 px, and a head that is turned away is as narrow as this in them.
+inline constexpr int kSmallFacePx = 30;
+
 struct FinderOptions {
   float min_detection_score = 0.5F;  // of the detector
   float min_mesh_score = 0.5F;       // of the mesh network's face flag

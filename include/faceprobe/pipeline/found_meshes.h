@@ -18,8 +18,8 @@ struct MeshCount {
   int found = 0;
 };
 
-// The finder should look for faces down to 30 px: they are as small as that in pictures of 128. Shards that have their meshes are left as
-// they are. `progress`: shards done, of how many. Throws Error(kInput) for no data set, Error(kOutput) when it cannot be written to.
+// The finder should look for faces down to face::kSmallFacePx. Shards that have their meshes are left as they are. `progress`: shards done,
+// of how many. Throws Error(kInput) for no data set, Error(kOutput) when it cannot be written to.
 MeshCount find_meshes(const std::filesystem::path& folder, const face::FaceFinder& finder,
                       const std::function<void(int, int)>& progress = {});
 
