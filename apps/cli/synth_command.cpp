@@ -3,6 +3,7 @@
 #include "faceprobe/io/picture_file.h"
 #include "faceprobe/synth/contact_sheet.h"
 #include "faceprobe/synth/generate.h"
+#include "json_line.h"
 #include "synth_assets.h"
 
 #include <malloc.h>
@@ -10,7 +11,6 @@
 #include <unistd.h>
 
 #include <memory>
-#include <nlohmann/json.hpp>
 
 namespace faceprobe::cli {
 
@@ -89,16 +89,15 @@ int run(Options options) {
                               [&](const synth::RunState& state) { progress(state); });
   const int made = report.state.samples_done - report.state.samples_found;
   if (options.json) {
-    const nlohmann::ordered_json json = {{"samples", report.state.samples_done},
-                                         {"samples_made", made},
-                                         {"seconds", report.state.seconds},
-                                         {"thread_seconds",
-                                          {{"scene", report.times.scene},
-                                           {"transport", report.times.transport},
-                                           {"shade", report.times.shade},
-                                           {"compose", report.times.compose},
-                                           {"write", report.times.write}}}};
-    fmt::print("{}\n", json.dump());
+    print_json_line({{"samples", report.state.samples_done},
+                     {"samples_made", made},
+                     {"seconds", report.state.seconds},
+                     {"thread_seconds",
+                      {{"scene", report.times.scene},
+                       {"transport", report.times.transport},
+                       {"shade", report.times.shade},
+                       {"compose", report.times.compose},
+                       {"write", report.times.write}}}});
   }
   spdlog::info("{} samples in {}, {} of them made now in {:.1f} s", report.state.samples_done, options.output, made,
                report.state.seconds);

@@ -3,6 +3,7 @@
 #include "faceprobe/io/data_files.h"
 #include "faceprobe/io/picture_file.h"
 #include "faceprobe/train/train.h"
+#include "json_line.h"
 #include "train_light_command.h"
 #include "train_regressor_command.h"
 #include "train_sky_command.h"
@@ -12,7 +13,6 @@
 #include <atomic>
 #include <csignal>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 namespace faceprobe::cli {
 
@@ -85,11 +85,10 @@ int run(Options options) {
   };
   const train::TrainReport report = train::train_highlight(options.run, hooks);
   if (options.json) {
-    const nlohmann::ordered_json json = {{"finished", report.finished},
-                                         {"steps", report.rows.empty() ? 0 : report.rows.back().step},
-                                         {"samples_per_second", report.samples_per_second},
-                                         {"weights", report.weights.string()}};
-    fmt::print("{}\n", json.dump());
+    print_json_line({{"finished", report.finished},
+                     {"steps", report.rows.empty() ? 0 : report.rows.back().step},
+                     {"samples_per_second", report.samples_per_second},
+                     {"weights", report.weights.string()}});
   }
   if (!report.finished) spdlog::warn("stopped; the same command goes on from the last checkpoint");
   return 0;

@@ -4,13 +4,13 @@
 #include "faceprobe/io/atomic_file.h"
 #include "faceprobe/io/picture_file.h"
 #include "faceprobe/pipeline/unwrap.h"
+#include "json_line.h"
 #include "shared_options.h"
 
 #include <spdlog/spdlog.h>
 
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 namespace faceprobe::cli {
 
@@ -64,15 +64,14 @@ int run(Options options) {
       }
       const pipeline::UnwrapReport& report = skin.report;
       if (options.json) {
-        const nlohmann::ordered_json json = {{"photo", input},
-                                             {"texture", path.string()},
-                                             {"residual_px", report.residual_px},
-                                             {"face_width_px", report.face_width_px},
-                                             {"yaw_deg", report.yaw_deg},
-                                             {"pitch_deg", report.pitch_deg},
-                                             {"covered", report.covered},
-                                             {"shading_taken", report.shading_taken}};
-        fmt::print("{}\n", json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+        print_json_line({{"photo", input},
+                         {"texture", path.string()},
+                         {"residual_px", report.residual_px},
+                         {"face_width_px", report.face_width_px},
+                         {"yaw_deg", report.yaw_deg},
+                         {"pitch_deg", report.pitch_deg},
+                         {"covered", report.covered},
+                         {"shading_taken", report.shading_taken}});
       }
       spdlog::info("{}: wrote {}; {:.0f} % of the face read from the photo", input, path.string(), 100 * report.covered);
       return 0;

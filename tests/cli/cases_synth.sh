@@ -60,6 +60,8 @@ case_train_and_eval() {
   expect_exit 0 train highlight --config tiny.json --data faces --validation faces -o run --threads 1 --json
   expect_json 4 stdout steps
   expect_files run checkpoint.pt config.json curves.png log.csv validation.png weights.safetensors
+  expect_exit 0 train highlight --config tiny.json --data faces -o $'not utf8 \xff' --threads 1 --json
+  expect_json 4 stdout steps
   expect_exit 0 eval highlight --data faces --weights mine=run/weights.safetensors --samples 4 -o scores --threads 1
   expect_stdout "| mine |"
   expect_stdout "| black layer |"
