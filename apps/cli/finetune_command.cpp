@@ -1,9 +1,11 @@
 #include "commands.h"
 #include "faceprobe/train/finetune.h"
+#include "json_line.h"
 
 #include <spdlog/spdlog.h>
 
 #include <atomic>
+#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <memory>
@@ -18,13 +20,42 @@ struct Options {
   std::string synthetic;
   std::string output;
   int most_people = 64;
+  bool json = false;
   train::PeopleOptions photos;
   train::FinetuneConfig config;
 };
 
 std::atomic<bool> interrupted = false;
 
+void print_table(const train::FinetuneReport& report) {
+  fmt::print(
+      "{} people held out\n\n| | beyond rank one | no highlights taken off | mean highlight |\n| --- | ---: | ---: | "
+      "---: |\n",
+      report.before.people);
+  const auto row = [](const char* name, const train::PeopleScore& score) {
+    fmt::print("| {} | {:.5f} | {:.5f} | {:.4f} |\n", name, score.residual, score.untouched, score.energy);
+  };
+  row("before", report.before);
+  row("after", report.after);
+}
+
+void print_json(const train::FinetuneReport& report, std::chrono::duration<double> taken) {
+  const auto row = [](const train::PeopleScore& score) {
+    return nlohmann::ordered_json{{"beyond_rank_one", score.residual},
+                                  {"no_highlights_taken_off", score.untouched},
+                                  {"mean_highlight", score.energy}};
+  };
+  print_json_line({{"finished", report.finished},
+                   {"steps", report.rows.empty() ? 0 : report.rows.back().step},
+                   {"people_held_out", report.before.people},
+                   {"before", row(report.before)},
+                   {"after", row(report.after)},
+                   {"weights", report.weights.string()},
+                   {"seconds", taken.count()}});
+}
+
 int run(Options options) {
+  const auto start = std::chrono::steady_clock::now();
   train::FinetuneRun run;
   options.photos.least_photos = options.config.photos;
   options.photos.most_photos = std::max(options.photos.most_photos, options.config.photos);
@@ -46,15 +77,11 @@ int run(Options options) {
   };
   hooks.stop = [] { return interrupted.load(); };
   const train::FinetuneReport report = train::finetune_highlight(run, hooks);
-  fmt::print(
-      "{} people held out\n\n| | beyond rank one | no highlights taken off | mean highlight |\n| --- | ---: | ---: | "
-      "---: |\n",
-      report.before.people);
-  const auto row = [](const char* name, const train::PeopleScore& score) {
-    fmt::print("| {} | {:.5f} | {:.5f} | {:.4f} |\n", name, score.residual, score.untouched, score.energy);
-  };
-  row("before", report.before);
-  row("after", report.after);
+  if (options.json) {
+    print_json(report, std::chrono::steady_clock::now() - start);
+  } else {
+    print_table(report);
+  }
   return 0;
 }
 
@@ -103,6 +130,7 @@ void add_finetune(CLI::App& program, Action& action) {
       ->capture_default_str();
   command->add_option("--seed", options->config.seed, "the same seed gives the same run")->capture_default_str();
   command->add_option("--threads", options->photos.threads, "threads; 0 = all processors")->capture_default_str();
+  command->add_flag("--json", options->json, "one JSON object on stdout at the end, in place of the table");
   command->footer(
       "Prints a table of people it was not trained on. Weights inherit the terms of the photos.\n\nExample:\n"
       "  faceprobe finetune --people people --start models/face.safetensors --data faces/train -o finetuned");

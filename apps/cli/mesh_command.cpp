@@ -1,9 +1,11 @@
 #include "commands.h"
 #include "faceprobe/pipeline/found_meshes.h"
+#include "json_line.h"
 
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <memory>
 
 namespace faceprobe::cli {
@@ -13,14 +15,21 @@ namespace {
 struct Options {
   std::string folder;
   int threads = 0;
+  bool json = false;
 };
 
 int run(const Options& options) {
+  const auto start = std::chrono::steady_clock::now();
   const face::FaceFinder finder({.min_face_px = face::kSmallFacePx, .threads = options.threads});
   const bool terminal = isatty(STDERR_FILENO) != 0;
   const pipeline::MeshCount count = pipeline::find_meshes(options.folder, finder, [terminal](int done, int total) {
     if (terminal) fmt::print(stderr, "\r{} of {} shards{}", done, total, done == total ? "\n" : "");
   });
+  if (options.json) {
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+    print_json_line(
+        {{"folder", options.folder}, {"views", count.views}, {"found", count.found}, {"seconds", taken.count()}});
+  }
   if (count.views == 0) {
     spdlog::info("all meshes of {} were there", options.folder);
   } else {
@@ -37,6 +46,7 @@ void add_mesh(CLI::App& program, Action& action) {
       program.add_subcommand("mesh", "finds the face mesh in synthetic photos, for training the face network");
   command->add_option("FOLDER", options->folder, "folder that `faceprobe synth` wrote")->type_name("DIR")->required();
   command->add_option("--threads", options->threads, "threads; 0 = all processors")->capture_default_str();
+  command->add_flag("--json", options->json, "one JSON object on stdout at the end");
   command->footer("Example:\n  faceprobe mesh faces/train");
   command->callback([options, &action] { action = [options] { return run(*options); }; });
 }

@@ -1,9 +1,11 @@
 #include "commands.h"
 #include "faceprobe/pipeline/traced_photos.h"
+#include "json_line.h"
 
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <memory>
 #include <string>
 
@@ -16,9 +18,11 @@ struct Options {
   std::string weights;
   int count = pipeline::TraceRun{}.most;
   int threads = 0;
+  bool json = false;
 };
 
 int run(const Options& options) {
+  const auto start = std::chrono::steady_clock::now();
   pipeline::TraceRun trace{.most = options.count, .options = {}};
   trace.options.weights = options.weights;
   trace.options.threads = options.threads;
@@ -26,6 +30,11 @@ int run(const Options& options) {
   const pipeline::TraceCount count = pipeline::trace_photos(options.folder, trace, [terminal](int done, int total) {
     if (terminal) fmt::print(stderr, "\r{} of {} shards{}", done, total, done == total ? "\n" : "");
   });
+  if (options.json) {
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+    print_json_line(
+        {{"folder", options.folder}, {"photos", count.photos}, {"traced", count.traced}, {"seconds", taken.count()}});
+  }
   if (count.photos == 0) {
     spdlog::info("all photos of {} had been read", options.folder);
   } else {
@@ -52,6 +61,7 @@ void add_trace(CLI::App& program, Action& action) {
                    "weights of the face network; default: those that come with the program")
       ->type_name("FILE");
   command->add_option("--threads", options->threads, "threads; 0 = all processors")->capture_default_str();
+  command->add_flag("--json", options->json, "one JSON object on stdout at the end");
   command->footer("Example:\n  faceprobe trace faces/train --count 12000");
   command->callback([options, &action] { action = [options] { return run(*options); }; });
 }

@@ -83,7 +83,11 @@ case_face_network() {
   echo '{"architecture": "face", "batch": 2, "steps": 4, "save_every": 2, "network": {"widths": [8, 16]}}' >face.json
   expect_refused 2 "Name face" train highlight --config face.json --data faces -o run
   expect_refused 3 "faceprobe mesh faces" train face --config face.json --data faces -o run
-  expect_exit 0 mesh faces --threads 1
+  expect_exit 0 mesh faces --threads 1 --json
+  expect_json faces stdout folder
+  expect_json 2 stdout views
+  expect_json 2 stdout found
+  json stdout seconds >/dev/null || fail "not said how long it took"
   expect_exit 0 train face --config face.json --data faces --validation faces -o run --threads 1
   expect_exit 0 eval geometry --data faces --weights mine=run/weights.safetensors --samples 4 -o scores --threads 1
   expect_stdout "| mine |"
@@ -100,7 +104,14 @@ case_light_prior() {
   expect_refused 3 "faceprobe mesh faces" trace faces
   expect_exit 0 mesh faces --threads 1
   expect_refused 3 "faceprobe trace faces" train light --data faces -o run
-  expect_exit 0 trace faces --threads 1
+  expect_exit 0 trace faces --threads 1 --json
+  expect_json faces stdout folder
+  expect_json 4 stdout photos
+  expect_json 4 stdout traced
+  json stdout seconds >/dev/null || fail "not said how long it took"
+  # Nothing is read again.
+  expect_exit 0 trace faces --threads 1 --json
+  expect_json 0 stdout photos
   echo '{"epoch": 2}' >wrong.json
   expect_refused 2 "epoch" train light --config wrong.json --data faces -o run
   expect_refused 2 "from the start" train light --data faces --start wrong.json -o run
@@ -111,4 +122,28 @@ case_light_prior() {
   expect_refused 3 "wrong.json" eval relight --data faces --samples 4 --scenes wrong.json
   expect_refused 3 "nowhere.obj" eval relight --data faces --samples 4 --object nowhere.obj
   expect_refused 5 "wrong.json" eval relight --data faces --samples 4 --prior-weights wrong.json
+}
+
+case_finetune() {
+  expect_exit 0 synth --count 2 "${few_faces[@]}" -o faces
+  echo '{"batch": 2, "steps": 2, "network": {"widths": [8, 16]}}' >tiny.json
+  expect_exit 0 train highlight --config tiny.json --data faces -o run --threads 1
+  local person tune=(finetune --start run/weights.safetensors --data faces --photos 2 --synthetic-batch 1 --threads 1)
+  for person in a b c d; do
+    mkdir -p "people/$person"
+    cp "$data/samples/astronaut.png" "people/$person/1.png"
+    cp "$data/samples/astronaut.png" "people/$person/2.png"
+  done
+  # Who smiles so is left out unless asked for.
+  expect_refused 3 "0 people with enough photos" "${tune[@]}" --people people -o tuned
+  [ ! -e tuned ] || fail "a refusal left a folder"
+  expect_exit 0 "${tune[@]}" --people people --max-expression 0.1 --held-out 0.5 --steps 3 -o tuned
+  expect_stdout "| after |"
+  expect_files tuned log.csv weights.safetensors
+  expect_exit 0 "${tune[@]}" --people people --max-expression 0.1 --held-out 0.5 --steps 3 -o again --json
+  expect_json 3 stdout steps
+  expect_json 1 stdout people_held_out
+  expect_json again/weights.safetensors stdout weights
+  json stdout after mean_highlight >/dev/null || fail "no score"
+  cmp tuned/weights.safetensors again/weights.safetensors || fail "the same run gave other weights"
 }
