@@ -24,7 +24,6 @@ double bent(double code, double contrast) {
 
 // sRGB's curve in double (core/color.h has it in float, and differences of logs are small).
 double srgb_inverse(double code) { return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4); }
-double srgb(double linear) { return linear <= 0.0031308 ? linear * 12.92 : 1.055 * std::pow(linear, 1 / 2.4) - 0.055; }
 
 // Codes as the logarithms of their odds, which a contrast multiplies.
 SkinTriples log_odds(const SkinTriples& codes) {
@@ -152,10 +151,6 @@ std::string ResponseOptions::validate() const {
 
 double linear_from_code(double code, double contrast) {
   return srgb_inverse(bent(std::clamp(code, 0.0, 1.0), contrast));
-}
-
-double code_from_linear(double linear, double contrast) {
-  return bent(std::clamp(srgb(std::clamp(linear, 0.0, 1.0)), 0.0, 1.0), 1 / contrast);
 }
 
 Image linearise(const ByteImage& encoded, double contrast) {

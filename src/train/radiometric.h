@@ -28,9 +28,8 @@
 
 namespace faceprobe::train {
 
-// The family above. `code`, `linear`: in [0, 1], clamped. `contrast` > 0. Each is the inverse of the other.
+// The family above. `code`: clamped to [0, 1]. `contrast` > 0.
 double linear_from_code(double code, double contrast);
-double code_from_linear(double linear, double contrast);
 // Linear light of code bytes; contrast 1 is decode_srgb(). Throws std::invalid_argument unless contrast is positive and
 // finite.
 Image linearise(const ByteImage& encoded, double contrast);

@@ -16,6 +16,13 @@ namespace {
 const Eigen::RowVector3d kMelanin(0.45, 0.75, 1.0);
 const Eigen::RowVector3d kHaemoglobin(0.12, 1.0, 0.75);
 
+// What a camera of the family writes for light: the inverse of linear_from_code().
+double code_from_linear(double linear, double contrast) {
+  const double light = std::clamp(linear, 0.0, 1.0);
+  const double srgb = light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055;
+  return 1 / (1 + std::pow(1 / std::clamp(srgb, 1e-12, 1.0) - 1, 1 / contrast));
+}
+
 struct Camera {
   double contrast = 1;                                    // of the family
   double noise_codes = 0;                                 // standard deviation
