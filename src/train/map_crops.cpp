@@ -80,10 +80,6 @@ Image crop_of_map(const EnvMap& map, const MapCropOptions& options) {
   return decode_srgb(encode_srgb(radiance, gain_of(radiance, options.exposure)));
 }
 
-Eigen::MatrixX3f light_of_crop(const EnvMap& map, const MapCropOptions& options, const SphereGrid& grid) {
-  return grid_from_env_map(map_of_crop(map, options), grid);
-}
-
 EnvMap map_of_crop(const EnvMap& map, const MapCropOptions& options) {
   check(map, options);
   const float gain = gain_of(radiance_of(map, options), options.exposure);

@@ -6,6 +6,7 @@
 #include "faceprobe/core/parallel.h"
 #include "faceprobe/core/quantile.h"
 #include "faceprobe/core/random.h"
+#include "faceprobe/core/sphere_grid.h"
 #include "faceprobe/lighting/sky.h"
 #include "net/torch/sky_cnn.h"
 

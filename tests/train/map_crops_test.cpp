@@ -2,6 +2,7 @@
 
 #include "faceprobe/core/angles.h"
 #include "faceprobe/core/color.h"
+#include "faceprobe/core/sphere_grid.h"
 
 #include <gtest/gtest.h>
 
@@ -41,8 +42,10 @@ Eigen::Vector2f white_middle(const Image& crop) {
   return sum / count;
 }
 
-// Where the grid holds the most light, as a mean over what is far above the room.
-Eigen::Vector3f brightest(const Eigen::MatrixX3f& light, const SphereGrid& grid) {
+// Where the map holds the most light, as a mean over what is far above the room.
+Eigen::Vector3f brightest(const EnvMap& map) {
+  const SphereGrid grid(16);
+  const Eigen::MatrixX3f light = grid_from_env_map(map, grid);
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
   const float room = light.col(0).minCoeff();
   for (int i = 0; i < grid.cell_count(); ++i) {
@@ -65,13 +68,13 @@ TEST(MapCrops, ALampAheadIsInTheMiddle) {
   ASSERT_EQ(crop.channels(), 3);
   EXPECT_LT((white_middle(crop) - Eigen::Vector2f(32, 32)).norm(), 0.5F);
   const SphereGrid grid(16);
-  const Eigen::MatrixX3f light = light_of_crop(map, options, grid);
+  const Eigen::MatrixX3f light = grid_from_env_map(map_of_crop(map, options), grid);
   ASSERT_EQ(light.rows(), grid.cell_count());
   Eigen::Index cell = 0;
   light.col(1).maxCoeff(&cell);
   EXPECT_GT(grid.direction(static_cast<int>(cell)).dot(Eigen::Vector3f(0, 0, -1)),
             std::cos(2 * static_cast<float>(grid.cell_radius())));
-  expect_towards(brightest(light, grid), {0, 0, -1});
+  expect_towards(brightest(map_of_crop(map, options)), {0, 0, -1});
 }
 
 // A pinhole camera: the tangent of the angle to the right is the share of half the width.
@@ -83,8 +86,7 @@ TEST(MapCrops, ALampAtTheRightIsAtTheRight) {
   // The lamp's picture is an ellipse whose middle lies a little further out than the lamp's.
   EXPECT_NEAR(middle.x(), 32 + 32 * std::tan(angle) / std::tan(0.6F), 1);
   EXPECT_NEAR(middle.y(), 32, 0.5);
-  expect_towards(brightest(light_of_crop(map, options, SphereGrid(16)), SphereGrid(16)),
-                 {std::sin(angle), 0, -std::cos(angle)});
+  expect_towards(brightest(map_of_crop(map, options)), {std::sin(angle), 0, -std::cos(angle)});
 }
 
 TEST(MapCrops, ALampAboveIsAbove) {
@@ -102,7 +104,7 @@ TEST(MapCrops, YawAndPitchTurnTheMap) {
       Eigen::AngleAxisf(-0.9F, Eigen::Vector3f::UnitY()) * (Eigen::AngleAxisf(-0.2F, Eigen::Vector3f::UnitX()) * ahead);
   const EnvMap map = room_with_lamp(in_map);
   EXPECT_LT((white_middle(crop_of_map(map, options)) - Eigen::Vector2f(32, 32)).norm(), 1);
-  expect_towards(brightest(light_of_crop(map, options, SphereGrid(16)), SphereGrid(16)), ahead);
+  expect_towards(brightest(map_of_crop(map, options)), ahead);
   // What is ahead goes to the left, and up.
   const EnvMap plain = room_with_lamp(ahead);
   const Eigen::Vector2f middle = white_middle(crop_of_map(plain, {.px = 64, .yaw_rad = 0.2F, .pitch_rad = 0.2F}));
@@ -139,7 +141,7 @@ TEST(MapCrops, TheLightIsOnTheCropsScale) {
   const EnvMap map = room_with_lamp({0, 0, 1});
   const MapCropOptions options{.px = 16, .exposure = 1.3F};
   const SphereGrid grid(16);
-  const Eigen::MatrixX3f light = light_of_crop(map, options, grid);
+  const Eigen::MatrixX3f light = grid_from_env_map(map_of_crop(map, options), grid);
   EXPECT_NEAR(light(grid.cell_of({0, 0, -1}), 1), crop_of_map(map, options)(8, 8, 1), 0.01);
   EXPECT_NEAR(light(grid.cell_of({0, 0, 1}), 1), 50 * 0.35 * 1.3, 0.2);  // unclipped
 }
@@ -151,7 +153,7 @@ TEST(MapCrops, RefusesWhatIsNoCamera) {
   EXPECT_THROW(crop_of_map(map, {.field_of_view_rad = 3.2F}), std::invalid_argument);
   EXPECT_THROW(crop_of_map(map, {.field_of_view_rad = 0}), std::invalid_argument);
   EXPECT_THROW(crop_of_map(map, {.exposure = 0}), std::invalid_argument);
-  EXPECT_THROW(light_of_crop(EnvMap(), {}, SphereGrid(4)), std::invalid_argument);
+  EXPECT_THROW(map_of_crop(EnvMap(), {}), std::invalid_argument);
 }
 
 // Black stays black, and is nothing to divide by.

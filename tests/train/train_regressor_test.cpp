@@ -159,7 +159,8 @@ TEST_F(TrainRegressorTest, GardnerLearnsWhereTheLampIs) {
   double off = 0;
   for (int i = 0; i < 12; ++i) {
     const MapCropOptions view{.px = 16, .yaw_rad = 0.5F * static_cast<float>(i)};
-    const Eigen::MatrixX3f truth = light_of_crop(data.training[0], view, SphereGrid(net::LightRegressor::kNside));
+    const Eigen::MatrixX3f truth =
+        grid_from_env_map(map_of_crop(data.training[0], view), SphereGrid(net::LightRegressor::kNside));
     off +=
         angle_between_deg(mean_direction(regressor.light(crop_of_map(data.training[0], view))), mean_direction(truth)) /
         12;

@@ -121,7 +121,7 @@ TEST_F(TrainSkyTest, LabelsAreInTheFrameAndScaleOfTheCropsLight) {
     seen.sun_azimuth_deg += degrees(static_cast<double>(yaw));
     seen.exposure *= gain;
     const Eigen::MatrixX3f drawn = sky_radiance(seen, grid, net::level_from_camera(-0.2));
-    const Eigen::MatrixX3f truth = light_of_crop(map.second, view, grid);
+    const Eigen::MatrixX3f truth = grid_from_env_map(map_of_crop(map.second, view), grid);
     double off = 0;
     double all = 0;
     for (int j = 0; j < grid.cell_count(); ++j) {

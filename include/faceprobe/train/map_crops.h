@@ -4,10 +4,9 @@
 //
 //   const MapCropOptions view{.yaw_rad = 1.2F};
 //   const Image crop = crop_of_map(map, view);
-//   const Eigen::MatrixX3f light = light_of_crop(map, view, SphereGrid(16));
+//   const EnvMap light = map_of_crop(map, view);
 
 #include "faceprobe/core/env_map.h"
-#include "faceprobe/core/sphere_grid.h"
 
 namespace faceprobe::train {
 
@@ -26,10 +25,8 @@ struct MapCropOptions {
 // an exposure that is not above 0.
 Image crop_of_map(const EnvMap& map, const MapCropOptions& options);
 
-// The same map turned as the crop's camera sees it, so that it is the crop's true light: cells of the grid x 3, on the crop's scale, where
-// 1 is its white. Throws as crop_of_map.
-Eigen::MatrixX3f light_of_crop(const EnvMap& map, const MapCropOptions& options, const SphereGrid& grid);
-// The same as a map, of the size that it has.
+// The same map turned as the crop's camera sees it, so that it is the crop's true light, on the crop's scale, where 1 is its white. Throws as
+// crop_of_map.
 EnvMap map_of_crop(const EnvMap& map, const MapCropOptions& options);
 
 }  // namespace faceprobe::train
