@@ -101,7 +101,7 @@ double agreement(const Flat& a, const Flat& b, const ByteImage& regions) {
 void report_agreement(const fs::path& london, const std::vector<pipeline::EstimateOptions>& settings) {
   const std::map<std::string, std::array<fs::path, 2>> people = bench::london_pairs(london);
   const face::CanonicalMesh mesh = face::load_canonical_mesh(io::data_file("canonical-face-model.obj"));
-  const train::FaceTemplate square = train::face_template(mesh, kSquarePx, train::TemplateLayout::kFrontal);
+  const train::FaceTemplate square = train::face_template(mesh, kSquarePx);
   const ByteImage regions = train::template_regions(square, face::triangle_regions(mesh));
   std::printf(
       "Correlation of the highlight layers of one person, neutral and smiling, over forehead and nose:\n\n"

@@ -122,7 +122,7 @@ double difference(const Flat& a, const Flat& b) {
 
 void report(const fs::path& london, const std::string& weights) {
   const face::CanonicalMesh mesh = face::load_canonical_mesh(io::data_file("canonical-face-model.obj"));
-  const train::FaceTemplate square = train::face_template(mesh, kSquarePx, train::TemplateLayout::kFrontal);
+  const train::FaceTemplate square = train::face_template(mesh, kSquarePx);
   std::printf(
       "Difference between one person neutral and smiling, root mean square over the root mean square, skin in the "
       "mesh's "

@@ -12,7 +12,7 @@ namespace faceprobe::train {
 
 namespace {
 
-constexpr double kFrontalMargin = 0.02;  // of the square, each side
+constexpr double kMargin = 0.02;  // of the square, each side
 // The share of triangles that is turned away further than those the foreshortening is measured against.
 constexpr double kFacingQuantile = 0.95;
 // Self-occlusion is looked up in a raster of this many pixels, and a surface counts as behind another when it is by
@@ -107,25 +107,20 @@ std::string WarpOptions::validate() const {
   return {};
 }
 
-FaceTemplate face_template(const face::CanonicalMesh& mesh, int size_px, TemplateLayout layout) {
+FaceTemplate face_template(const face::CanonicalMesh& mesh, int size_px) {
   if (size_px < 8 || size_px > 4096) throw std::invalid_argument("The template's size must be from 8 to 4096 pixels.");
   FaceTemplate square;
   square.size_px = size_px;
   square.triangles = mesh.triangles;
   const double size = size_px;
   const Eigen::MatrixX3d vertices = mesh.vertices_m.cast<double>();
-  if (layout == TemplateLayout::kUv) {
-    square.positions_px = mesh.uv.cast<double>() * size;
-    square.positions_px.col(1) = size - square.positions_px.col(1).array();
-  } else {
-    square.positions_px = vertices.leftCols<2>();
-    square.positions_px.col(1) *= -1;
-    const Eigen::RowVector2d low = square.positions_px.colwise().minCoeff();
-    const Eigen::RowVector2d extent = square.positions_px.colwise().maxCoeff() - low;
-    const double scale = size * (1 - 2 * kFrontalMargin) / extent.maxCoeff();
-    const Eigen::RowVector2d middle = low + 0.5 * extent;
-    square.positions_px = ((square.positions_px.rowwise() - middle) * scale).array() + 0.5 * size;
-  }
+  square.positions_px = vertices.leftCols<2>();
+  square.positions_px.col(1) *= -1;
+  const Eigen::RowVector2d low = square.positions_px.colwise().minCoeff();
+  const Eigen::RowVector2d extent = square.positions_px.colwise().maxCoeff() - low;
+  const double scale = size * (1 - 2 * kMargin) / extent.maxCoeff();
+  const Eigen::RowVector2d middle = low + 0.5 * extent;
+  square.positions_px = ((square.positions_px.rowwise() - middle) * scale).array() + 0.5 * size;
   square.areas_m2.resize(mesh.triangles.rows());
   for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
     const Eigen::RowVector3d a = vertices.row(mesh.triangles(t, 1)) - vertices.row(mesh.triangles(t, 0));

@@ -4,7 +4,7 @@
 // and fills nothing in: what the photo does not show is marked, not mirrored from the other half, which would mirror
 // highlights too.
 //
-//   const FaceTemplate square = face_template(mesh, 256, TemplateLayout::kUv);  // once
+//   const FaceTemplate square = face_template(mesh, 256);  // once
 //   const Warp warp = face_warp(square, {face.landmarks_px.leftCols<2>(), face.landmarks_px.col(2)}, {width, height});
 //   const Image frontal = sample(photo.linear, warp);     // 256 x 256 x 3, 0 where not seen
 //   const ByteImage mask = seen(warp);
@@ -25,11 +25,7 @@
 
 namespace faceprobe::train {
 
-enum class TemplateLayout {
-  kUv,       // the mesh's own UVs over the whole square: sides of the face get room
-  kFrontal,  // the mesh from the front, orthographic, centred: what is turned away there is left out
-};
-
+// The mesh from the front, orthographic, in the middle of the square: what is turned away there is left out.
 struct FaceTemplate {
   int size_px = 0;                     // of the square
   Eigen::MatrixX2d positions_px;       // 468 x 2: where the landmarks are in it, y down
@@ -39,7 +35,7 @@ struct FaceTemplate {
 };
 
 // Throws std::invalid_argument unless 8 <= size_px <= 4096.
-FaceTemplate face_template(const face::CanonicalMesh& mesh, int size_px, TemplateLayout layout);
+FaceTemplate face_template(const face::CanonicalMesh& mesh, int size_px);
 
 // size_px x size_px x 1, Region of each pixel of the square; kNone outside the face. `triangle_regions`: face/region.h.
 ByteImage template_regions(const FaceTemplate& square, const std::vector<Region>& triangle_regions);

@@ -58,7 +58,7 @@ class Reader {
   Reader(const PeopleOptions& options, int least_face_px)
       : options_(options), least_face_px_(least_face_px), finder_(face::FinderOptions{.min_face_px = least_face_px}),
         mesh_(face::load_canonical_mesh(io::data_file("canonical-face-model.obj"))),
-        square_(face_template(mesh_, options.square_px, TemplateLayout::kFrontal)),
+        square_(face_template(mesh_, options.square_px)),
         regions_(template_regions(square_, face::triangle_regions(mesh_))) {}
 
   const ByteImage& regions() const { return regions_; }

@@ -23,8 +23,8 @@ const face::CanonicalMesh& mesh() {
   return loaded;
 }
 
-const FaceTemplate& uv_template() {
-  static const FaceTemplate square = face_template(mesh(), kSize, TemplateLayout::kUv);
+const FaceTemplate& square_template() {
+  static const FaceTemplate square = face_template(mesh(), kSize);
   return square;
 }
 
@@ -59,23 +59,19 @@ double dot(const Image& a, const Image& b) {
   return sum;
 }
 
-TEST(Frontalise, TheUvLayoutHasRoomForEveryTriangle) {
-  std::vector<bool> used(static_cast<std::size_t>(mesh().triangles.rows()));
-  const FaceTemplate large = face_template(mesh(), 1024, TemplateLayout::kUv);
-  for (const face::Fragment& at : large.pixels) {
-    if (at.triangle >= 0) used[static_cast<std::size_t>(at.triangle)] = true;
-  }
-  EXPECT_EQ(std::count(used.begin(), used.end(), false), 0);
-  EXPECT_GT(large.positions_px(152, 1), large.positions_px(10, 1)) << "chin below forehead";
-  // A region per pixel: the middle of the picture is the nose or beside it, the corner is not the face.
-  const ByteImage regions = template_regions(large, face::triangle_regions(mesh()));
+TEST(Frontalise, TheSquareHoldsTheFaceFromTheFront) {
+  const FaceTemplate& square = square_template();
+  EXPECT_GT(square.positions_px(152, 1), square.positions_px(10, 1)) << "chin below forehead";
+  EXPECT_GT(square.positions_px(263, 0), square.positions_px(33, 0)) << "not mirrored";
+  // A region per pixel: the corner is not the face.
+  const ByteImage regions = template_regions(square, face::triangle_regions(mesh()));
   EXPECT_EQ(regions(0, 0), static_cast<int>(Region::kNone));
-  const Eigen::RowVector2i tip = large.positions_px.row(4).cast<int>();
+  const Eigen::RowVector2i tip = square.positions_px.row(4).cast<int>();
   EXPECT_EQ(regions(tip.x(), tip.y()), static_cast<int>(Region::kNose));
 }
 
 TEST(Frontalise, AFaceThatIsTheTemplateStaysWhereItIs) {
-  const FaceTemplate square = face_template(mesh(), kSize, TemplateLayout::kFrontal);
+  const FaceTemplate& square = square_template();
   EXPECT_NEAR(square.positions_px.col(1).minCoeff(), 0.02 * kSize, 1e-4);
   EXPECT_NEAR(square.positions_px.col(1).maxCoeff(), 0.98 * kSize, 1e-4);
   const Warp warp = face_warp(square, {square.positions_px.cast<float>(), {}}, {kSize, kSize});
@@ -103,11 +99,11 @@ TEST(Frontalise, LinearPicturesAreReproducedAtTheLandmarks) {
     }
   }
   const WarpLandmarks landmarks = turned(20);
-  const Warp warp = face_warp(uv_template(), landmarks, kPhoto);
+  const Warp warp = face_warp(square_template(), landmarks, kPhoto);
   const Image read = sample(coordinates, warp);
   int checked = 0;
   for (Eigen::Index i = 0; i < 468; ++i) {
-    const Eigen::RowVector2d at = uv_template().positions_px.row(i);
+    const Eigen::RowVector2d at = square_template().positions_px.row(i);
     const int x = std::min(static_cast<int>(at.x()), kSize - 1);
     const int y = std::min(static_cast<int>(at.y()), kSize - 1);
     if (seen(warp)(x, y) == 0) continue;
@@ -131,13 +127,13 @@ TEST(Frontalise, TrianglesTurnedAwayAreOccluded) {
   const double yaw = 40;
   WarpLandmarks landmarks = turned(yaw);
   landmarks.depth_px.resize(0);
-  const Warp warp = face_warp(uv_template(), landmarks, kPhoto);
+  const Warp warp = face_warp(square_template(), landmarks, kPhoto);
   const Eigen::RowVector3f view(static_cast<float>(-std::sin(radians(yaw))), 0,
                                 static_cast<float>(std::cos(radians(yaw))));
   int away = 0;
   int facing = 0;
   for (std::size_t i = 0; i < warp.sources.size(); ++i) {
-    const int t = uv_template().pixels[i].triangle;
+    const int t = square_template().pixels[i].triangle;
     if (t < 0) continue;
     const Eigen::RowVector3f a =
         mesh().vertices_m.row(mesh().triangles(t, 1)) - mesh().vertices_m.row(mesh().triangles(t, 0));
@@ -158,8 +154,8 @@ TEST(Frontalise, TrianglesTurnedAwayAreOccluded) {
 
 TEST(Frontalise, AForeshorteningLimitIsAnOption) {
   const WarpLandmarks landmarks = turned(50);
-  const int strict = count(face_warp(uv_template(), landmarks, kPhoto, {.max_foreshortening = 1.5F}), Reach::kSeen);
-  const int lenient = count(face_warp(uv_template(), landmarks, kPhoto, {.max_foreshortening = 20}), Reach::kSeen);
+  const int strict = count(face_warp(square_template(), landmarks, kPhoto, {.max_foreshortening = 1.5F}), Reach::kSeen);
+  const int lenient = count(face_warp(square_template(), landmarks, kPhoto, {.max_foreshortening = 20}), Reach::kSeen);
   EXPECT_LT(strict, lenient * 9 / 10);
   EXPECT_GT(strict, 1000);
 }
@@ -167,9 +163,9 @@ TEST(Frontalise, AForeshorteningLimitIsAnOption) {
 TEST(Frontalise, DepthTellsWhatIsBehindTheNose) {
   const WarpOptions lenient{.max_foreshortening = 20};  // so that only covering counts
   WarpLandmarks landmarks = turned(50);
-  const Warp with = face_warp(uv_template(), landmarks, kPhoto, lenient);
+  const Warp with = face_warp(square_template(), landmarks, kPhoto, lenient);
   landmarks.depth_px.resize(0);
-  const Warp without = face_warp(uv_template(), landmarks, kPhoto, lenient);
+  const Warp without = face_warp(square_template(), landmarks, kPhoto, lenient);
   int hidden = 0;
   for (std::size_t i = 0; i < with.sources.size(); ++i) {
     if (with.sources[i].reach == without.sources[i].reach) continue;
@@ -181,16 +177,16 @@ TEST(Frontalise, DepthTellsWhatIsBehindTheNose) {
   EXPECT_GT(hidden, 30);
   // From the front nothing of the face is behind another part.
   landmarks = turned(0);
-  const int frontal = count(face_warp(uv_template(), landmarks, kPhoto, lenient), Reach::kSeen);
+  const int frontal = count(face_warp(square_template(), landmarks, kPhoto, lenient), Reach::kSeen);
   landmarks.depth_px.resize(0);
-  EXPECT_EQ(frontal, count(face_warp(uv_template(), landmarks, kPhoto, lenient), Reach::kSeen));
+  EXPECT_EQ(frontal, count(face_warp(square_template(), landmarks, kPhoto, lenient), Reach::kSeen));
 }
 
 TEST(Frontalise, AMirroredFaceIsSeenFromInside) {
   WarpLandmarks landmarks = turned(0);
   landmarks.photo_px.col(0) = 200 - landmarks.photo_px.col(0).array();
   landmarks.depth_px.resize(0);
-  const Warp warp = face_warp(uv_template(), landmarks, kPhoto);
+  const Warp warp = face_warp(square_template(), landmarks, kPhoto);
   // The few triangles around the rim that faced away now face the camera; they are the measure of themselves.
   EXPECT_LT(count(warp, Reach::kSeen), kSize * kSize / 50);
 }
@@ -198,7 +194,7 @@ TEST(Frontalise, AMirroredFaceIsSeenFromInside) {
 TEST(Frontalise, PartsBeyondThePhotoAreMarked) {
   const WarpLandmarks landmarks = turned(0);
   const PhotoSize half{100, 220};
-  const Warp warp = face_warp(uv_template(), landmarks, half);
+  const Warp warp = face_warp(square_template(), landmarks, half);
   EXPECT_GT(count(warp, Reach::kOffPhoto), 2000);
   const Image ones = sample(Image(half.width, half.height, 1, 1.0F), warp);
   for (std::size_t i = 0; i < warp.sources.size(); ++i) {
@@ -208,7 +204,7 @@ TEST(Frontalise, PartsBeyondThePhotoAreMarked) {
 }
 
 TEST(Frontalise, ScatterIsTheTransposeOfSample) {
-  const Warp warp = face_warp(uv_template(), turned(30), {90, 220});  // some of it off the photo
+  const Warp warp = face_warp(square_template(), turned(30), {90, 220});  // some of it off the photo
   const Image photo = noise(90, 220, 3, 2);
   const Image square = noise(kSize, kSize, 3, 3);
   const double forward = dot(sample(photo, warp), square);
@@ -219,17 +215,17 @@ TEST(Frontalise, ScatterIsTheTransposeOfSample) {
 }
 
 TEST(Frontalise, RefusesWhatDoesNotFit) {
-  EXPECT_THROW(face_template(mesh(), 4, TemplateLayout::kUv), std::invalid_argument);
+  EXPECT_THROW(face_template(mesh(), 4), std::invalid_argument);
   WarpLandmarks landmarks = turned(0);
-  EXPECT_THROW(face_warp(uv_template(), landmarks, {0, 10}), std::invalid_argument);
-  EXPECT_THROW(face_warp(uv_template(), landmarks, kPhoto, {.max_foreshortening = 1}), std::invalid_argument);
-  EXPECT_THROW(face_warp(uv_template(), {landmarks.photo_px.topRows(68), {}}, kPhoto), std::invalid_argument);
-  const Warp warp = face_warp(uv_template(), landmarks, kPhoto);
+  EXPECT_THROW(face_warp(square_template(), landmarks, {0, 10}), std::invalid_argument);
+  EXPECT_THROW(face_warp(square_template(), landmarks, kPhoto, {.max_foreshortening = 1}), std::invalid_argument);
+  EXPECT_THROW(face_warp(square_template(), {landmarks.photo_px.topRows(68), {}}, kPhoto), std::invalid_argument);
+  const Warp warp = face_warp(square_template(), landmarks, kPhoto);
   EXPECT_THROW(sample(Image(10, 10, 3), warp), std::invalid_argument);
   EXPECT_THROW(scatter(Image(10, 10, 3), warp), std::invalid_argument);
   landmarks.photo_px(3, 0) = std::numeric_limits<float>::infinity();
-  EXPECT_THROW(face_warp(uv_template(), landmarks, kPhoto), std::invalid_argument);
-  EXPECT_THROW(template_regions(uv_template(), {}), std::invalid_argument);
+  EXPECT_THROW(face_warp(square_template(), landmarks, kPhoto), std::invalid_argument);
+  EXPECT_THROW(template_regions(square_template(), {}), std::invalid_argument);
 }
 
 }  // namespace

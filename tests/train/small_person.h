@@ -23,7 +23,7 @@ struct Person {
 // each time. The colours are smooth, so that sampling does not change them much.
 inline Person make_person(float redness = 0.6F) {
   const face::CanonicalMesh mesh = face::load_canonical_mesh(io::data_file("canonical-face-model.obj"));
-  const FaceTemplate square = face_template(mesh, kSquare, TemplateLayout::kFrontal);
+  const FaceTemplate square = face_template(mesh, kSquare);
   Person person;
   person.regions = template_regions(square, face::triangle_regions(mesh));
   const Eigen::MatrixX3f centred = mesh.vertices_m.rowwise() - mesh.vertices_m.colwise().mean();
