@@ -27,10 +27,8 @@ class Sampler {
 
   int width() const { return levels_.front().cols; }
   int height() const { return levels_.front().rows; }
-  // Light is multiplied by this before it is encoded; 1 at first.
-  float gain() const { return gain_; }
-  // Sets the gain so that the photo, or the square, is neither black nor burnt out. A photo that is well exposed keeps
-  // 1.
+  // From here on light is multiplied so that the photo, or the square, is neither black nor burnt out. A photo that is
+  // well exposed stays as it is.
   void expose() {
     expose({{0.5F * static_cast<float>(width()), 0.5F * static_cast<float>(height())},
             static_cast<float>(width() > height() ? width() : height()),
@@ -45,7 +43,7 @@ class Sampler {
   cv::Mat warp(const SquareRegion& region, int size) const;
 
   std::vector<cv::Mat> levels_;  // level i is halved i times
-  float gain_ = 1;
+  float gain_ = 1;               // of light, before it is encoded
 };
 
 }  // namespace faceprobe::face
