@@ -10,8 +10,6 @@
 
 namespace faceprobe::face {
 
-inline constexpr int kMeshRegionCount = 13;
-
 // Region of each triangle of the canonical mesh, from landmark rings (eyes, lips, brows) and the canonical shape.
 std::vector<Region> triangle_regions(const CanonicalMesh& mesh);
 
