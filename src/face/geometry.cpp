@@ -34,8 +34,7 @@ Crop face_crop(const Face& face, int photo_width, int photo_height, const Geomet
   Crop crop;
   crop.x_px = x;
   crop.y_px = y;
-  crop.scale = options.long_side_px / std::max(width, height);
-  if (crop.scale > 1 && !options.allow_enlarging) crop.scale = 1;
+  crop.scale = std::min(options.long_side_px / std::max(width, height), 1.0);
   crop.width = std::max(1, static_cast<int>(std::lround(width * crop.scale)));
   crop.height = std::max(1, static_cast<int>(std::lround(height * crop.scale)));
   return crop;

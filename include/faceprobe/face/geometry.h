@@ -32,9 +32,8 @@ struct Crop {
 };
 
 struct GeometryOptions {
-  int long_side_px = 256;  // of the crop; never more than the photo has when allow_enlarging is false
+  int long_side_px = 256;  // of the crop; never more than the photo has
   double margin = 0.15;    // of the landmarks' box, on each side
-  bool allow_enlarging = false;
 
   std::string validate() const;
 };
