@@ -3,9 +3,9 @@
 #include "eval_results.h"
 #include "eval_stages.h"
 #include "faceprobe/core/error.h"
+#include "progress.h"
 
 #include <spdlog/fmt/fmt.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <memory>
@@ -19,9 +19,8 @@ std::pair<std::string, std::string> name_and_file(const std::string& named) {
 }
 
 std::function<void(int, int)> eval_progress() {
-  const bool terminal = isatty(STDERR_FILENO) != 0;
-  return [terminal](int done, int total) {
-    if (terminal) fmt::print(stderr, "\r{} of {} photos{}", done, total, done == total ? "\n" : "");
+  return [progress = std::make_shared<Progress>()](int done, int total) {
+    progress->show(done, total, fmt::format("{} of {} photos", done, total));
   };
 }
 

@@ -9,13 +9,13 @@
 #include "paper/plan.h"
 #include "paper/print_pdf.h"
 #include "paper/section_cache.h"
+#include "progress.h"
 
 #include <spdlog/spdlog.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <chrono>
+#include <functional>
 #include <iterator>
 #include <memory>
 #include <span>
@@ -39,31 +39,11 @@ constexpr std::array kParts = {Part{"highlights", highlight_sections, kHighlight
                                Part{"triangulation", room_sections},
                                Part{"ablations", ablation_sections}};
 
-// How far a part is and how long it will take: a line that writes over itself on a terminal, one every half minute elsewhere.
-class PartProgress {
- public:
-  explicit PartProgress(std::string part) : part_(std::move(part)) {}
-
-  void operator()(int done, int total) {
-    using std::chrono::duration;
-    constexpr double kEvery_s = 30;
-    const double seconds = duration<double>(std::chrono::steady_clock::now() - start_).count();
-    const double left = done > 0 ? seconds / done * (total - done) : 0;
-    const std::string line = fmt::format("{}: {} of {}, {:.0f} min left in it", part_, done, total, left / 60);
-    if (terminal_) {
-      fmt::print(stderr, "\r{}   {}", line, done == total ? "\n" : "");
-    } else if (seconds - told_s_ > kEvery_s) {
-      told_s_ = seconds;
-      spdlog::info(line);
-    }
-  }
-
- private:
-  std::string part_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  double told_s_ = 0;
-  bool terminal_ = isatty(STDERR_FILENO) != 0;
-};
+std::function<void(int, int)> part_progress(const std::string& part) {
+  return [part, progress = std::make_shared<Progress>()](int done, int total) {
+    progress->show(done, total, fmt::format("{}: {} of {}", part, done, total));
+  };
+}
 
 // What synthetic faces are made of; nothing where they are all there.
 void require_data(const PaperPlan& plan) {
@@ -95,11 +75,11 @@ int run(PaperPlan plan) {
   const eval::PaperReport earlier =
       plan.earlier.empty() ? eval::PaperReport() : eval::report_from_json(io::read_text(plan.earlier, kMostBytes));
   io::create_folder(plan.output);
-  plan.progress = PartProgress("synthetic faces");
+  plan.progress = part_progress("synthetic faces");
   make_paper_faces(plan);
   eval::PaperReport report{.title = "Light from faces: the evaluation", .made_with = made_with(plan)};
   for (std::size_t i = 0; i < kParts.size(); ++i) {
-    plan.progress = PartProgress(fmt::format("part {} of {}, {}", i + 1, kParts.size(), kParts[i].name));
+    plan.progress = part_progress(fmt::format("{}, part {} of {}", kParts[i].name, i + 1, kParts.size()));
     Sections sections = cached_part(plan, key_of(plan, kParts[i].rivals), kParts[i].name, kParts[i].measure);
     std::move(sections.begin(), sections.end(), std::back_inserter(report.sections));
     spdlog::info("part {} of {}, {}: done", i + 1, kParts.size(), kParts[i].name);

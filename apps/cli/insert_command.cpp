@@ -72,10 +72,13 @@ int run(const Options& options) {
   for (const std::string& warning : estimate.warnings) spdlog::warn("{}", warning);
   insert::Scene scene = pipeline::scene_for(photo, estimate, std::move(object.model), where);
   if (options.preview) insert::shrink(photo.linear, scene, kPreviewPx);
-  Progress progress("drawing");
-  how.render.progress = [&](float share) { return progress.show(share); };
+  Progress progress;
+  how.render.progress = [&](float share) {
+    progress.show(static_cast<double>(share), 1, fmt::format("drawing: {:.0f} %", 100 * share));
+    return true;
+  };
   const insert::Insertion done = insert::insert_model(photo.linear, scene, how);
-  progress.end();
+  progress.clear();
   const std::filesystem::path output = options.output;
   if (picture_alone) {
     io::write_picture(output, done.picture);

@@ -1,11 +1,10 @@
 #include "commands.h"
 #include "faceprobe/pipeline/found_meshes.h"
 #include "json_line.h"
+#include "progress.h"
 
 #include <spdlog/spdlog.h>
-#include <unistd.h>
 
-#include <chrono>
 #include <memory>
 
 namespace faceprobe::cli {
@@ -19,16 +18,14 @@ struct Options {
 };
 
 int run(const Options& options) {
-  const auto start = std::chrono::steady_clock::now();
+  Progress progress;
   const face::FaceFinder finder({.min_face_px = face::kSmallFacePx, .threads = options.threads});
-  const bool terminal = isatty(STDERR_FILENO) != 0;
-  const pipeline::MeshCount count = pipeline::find_meshes(options.folder, finder, [terminal](int done, int total) {
-    if (terminal) fmt::print(stderr, "\r{} of {} shards{}", done, total, done == total ? "\n" : "");
+  const pipeline::MeshCount count = pipeline::find_meshes(options.folder, finder, [&](int done, int total) {
+    progress.show(done, total, fmt::format("{} of {} shards", done, total));
   });
   if (options.json) {
-    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
     print_json_line(
-        {{"folder", options.folder}, {"views", count.views}, {"found", count.found}, {"seconds", taken.count()}});
+        {{"folder", options.folder}, {"views", count.views}, {"found", count.found}, {"seconds", progress.seconds()}});
   }
   if (count.views == 0) {
     spdlog::info("all meshes of {} were there", options.folder);

@@ -1,46 +1,64 @@
 #pragma once
-// How far a long job is, with the time left, on stderr; nothing where that is no terminal.
+// How far a long job is and how long it will still take, on stderr: a line that writes over itself on a terminal, one every half minute
+// elsewhere, such as in a log.
 //
-//   Progress progress("drawing");
-//   while (work()) progress.show(share);     // 0..1
-//   progress.end();
+//   Progress progress;
+//   while (work()) progress.show(done, total, fmt::format("{} of {} shards", done, total));   // "3 of 10 shards, 40 s left"
 
+#include <spdlog/spdlog.h>
 #include <unistd.h>
+
 #include <chrono>
-#include <cstdio>
 #include <string>
-#include <utility>
 
 namespace faceprobe::cli {
 
 class Progress {
  public:
-  explicit Progress(std::string what) : what_(std::move(what)) {}
+  Progress() = default;
+  ~Progress() { clear(); }
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+  Progress(Progress&&) = delete;
+  Progress& operator=(Progress&&) = delete;
 
-  // Always true: for callbacks that may stop a job.
-  bool show(float share) {
-    const double seconds = since_start();
-    if (!terminal_ || seconds < shown_ + 0.2) return true;
-    shown_ = seconds;
-    std::fprintf(stderr, "\r%s: %3.0f %%, %.0f s left   ", what_.c_str(), 100.0 * static_cast<double>(share),
-                 share > 0 ? seconds * (1 / static_cast<double>(share) - 1) : 0);
-    std::fflush(stderr);
-    return true;
+  // When all is done the line goes: what came of the job is for the caller to say.
+  void show(double done, double total, const std::string& text) {
+    if (done >= total) {
+      clear();
+      return;
+    }
+    const double now = seconds();
+    if (now < shown_s_ + (terminal_ ? kOnTerminal_s : kInLog_s)) return;
+    shown_s_ = now;
+    if (terminal_) {
+      fmt::print(stderr, "\r\033[K{}{}", text, left(done, total));
+    } else {
+      spdlog::info("{}{}", text, left(done, total));
+    }
   }
 
-  void end() {
-    if (terminal_ && shown_ > 0) std::fputs("\r\033[K", stderr);
+  // For a job that may end before all is done.
+  void clear() {
+    if (terminal_ && shown_s_ > 0) fmt::print(stderr, "\r\033[K");
+    shown_s_ = 0;
   }
+
+  // Since this was made.
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
 
  private:
-  double since_start() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
+  static constexpr double kOnTerminal_s = 0.2;
+  static constexpr double kInLog_s = 30;
 
-  std::string what_;
-  bool terminal_ = isatty(STDERR_FILENO) != 0;
-  double shown_ = 0;
+  std::string left(double done, double total) const {
+    if (!(done > 0)) return {};
+    const double left_s = seconds() * (total / done - 1);
+    return left_s < 100 ? fmt::format(", {:.0f} s left", left_s) : fmt::format(", {:.0f} min left", left_s / 60);
+  }
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  bool terminal_ = isatty(STDERR_FILENO) != 0 && spdlog::should_log(spdlog::level::info);  // not with --quiet
+  double shown_s_ = 0;  // when the line was written; 0 = there is none
 };
 
 }  // namespace faceprobe::cli

@@ -4,11 +4,11 @@
 #include "faceprobe/synth/contact_sheet.h"
 #include "faceprobe/synth/generate.h"
 #include "json_line.h"
+#include "progress.h"
 #include "synth_assets.h"
 
 #include <malloc.h>
 #include <spdlog/spdlog.h>
-#include <unistd.h>
 
 #include <memory>
 
@@ -28,33 +28,16 @@ struct Options {
   synth::Recipe recipe;
 };
 
-// A line that writes over itself on a terminal, one in ten seconds elsewhere.
-class Progress {
- public:
-  void operator()(const synth::RunState& state) {
-    const int made = state.samples_done - state.samples_found;
-    if (made <= 0) {
-      if (state.samples_found > 0)
-        spdlog::info("{} of {} samples are there already", state.samples_found, state.samples_total);
-      return;
-    }
-    const double rate = made / state.seconds;
-    const double left = (state.samples_total - state.samples_done) / rate;
-    if (is_terminal_) {
-      fmt::print(stderr, "\r{} of {} samples, {:.0f} a second, {:.0f} s left   ", state.samples_done,
-                 state.samples_total, rate, left);
-      if (state.samples_done == state.samples_total) fmt::print(stderr, "\n");
-    } else if (state.seconds - last_ > 10 || state.samples_done == state.samples_total) {
-      last_ = state.seconds;
-      spdlog::info("{} of {} samples, {:.0f} a second, {:.0f} s left", state.samples_done, state.samples_total, rate,
-                   left);
-    }
+void show(const synth::RunState& state, Progress& progress) {
+  const int made = state.samples_done - state.samples_found;
+  if (made > 0) {
+    progress.show(
+        made, state.samples_total - state.samples_found,
+        fmt::format("{} of {} samples, {:.1f} a second", state.samples_done, state.samples_total, made / state.seconds));
+  } else if (state.samples_found > 0) {
+    spdlog::info("{} of {} samples are there already", state.samples_found, state.samples_total);
   }
-
- private:
-  bool is_terminal_ = isatty(STDERR_FILENO) != 0;
-  double last_ = 0;
-};
+}
 
 // Samples spread evenly over the data set, so that a sheet shows as many people as it can.
 void write_preview(const Options& options) {
@@ -86,7 +69,7 @@ int run(Options options) {
   Progress progress;
   const synth::DatasetReport report =
       synth::generate_dataset(assets, options.recipe, options.output, {.threads = options.threads},
-                              [&](const synth::RunState& state) { progress(state); });
+                              [&](const synth::RunState& state) { show(state, progress); });
   const int made = report.state.samples_done - report.state.samples_found;
   if (options.json) {
     print_json_line({{"samples", report.state.samples_done},
@@ -99,8 +82,8 @@ int run(Options options) {
                        {"compose", report.times.compose},
                        {"write", report.times.write}}}});
   }
-  spdlog::info("{} samples in {}, {} of them made now in {:.1f} s", report.state.samples_done, options.output, made,
-               report.state.seconds);
+  spdlog::info("{} samples in {}, {} of them made now in {:.1f} s, {:.1f} a second", report.state.samples_done,
+               options.output, made, report.state.seconds, made / std::max(report.state.seconds, 1e-3));
   if (!options.preview.empty()) write_preview(options);
   return 0;
 }

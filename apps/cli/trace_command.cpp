@@ -1,11 +1,10 @@
 #include "commands.h"
 #include "faceprobe/pipeline/traced_photos.h"
 #include "json_line.h"
+#include "progress.h"
 
 #include <spdlog/spdlog.h>
-#include <unistd.h>
 
-#include <chrono>
 #include <memory>
 #include <string>
 
@@ -22,18 +21,16 @@ struct Options {
 };
 
 int run(const Options& options) {
-  const auto start = std::chrono::steady_clock::now();
+  Progress progress;
   pipeline::TraceRun trace{.most = options.count, .options = {}};
   trace.options.weights = options.weights;
   trace.options.threads = options.threads;
-  const bool terminal = isatty(STDERR_FILENO) != 0;
-  const pipeline::TraceCount count = pipeline::trace_photos(options.folder, trace, [terminal](int done, int total) {
-    if (terminal) fmt::print(stderr, "\r{} of {} shards{}", done, total, done == total ? "\n" : "");
+  const pipeline::TraceCount count = pipeline::trace_photos(options.folder, trace, [&](int done, int total) {
+    progress.show(done, total, fmt::format("{} of {} shards", done, total));
   });
   if (options.json) {
-    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
     print_json_line(
-        {{"folder", options.folder}, {"photos", count.photos}, {"traced", count.traced}, {"seconds", taken.count()}});
+        {{"folder", options.folder}, {"photos", count.photos}, {"traced", count.traced}, {"seconds", progress.seconds()}});
   }
   if (count.photos == 0) {
     spdlog::info("all photos of {} had been read", options.folder);
