@@ -8,6 +8,7 @@
 #include <iomanip>
 #include <sstream>
 #include <stdexcept>
+#include <vector>
 
 namespace faceprobe::train {
 
@@ -88,12 +89,36 @@ PhotoMeasures measure_photo(const Image& frontal, const PhotoMasks& masks) {
   return measures;
 }
 
+double chroma_spread(const Image& shading, const ByteImage& mask) {
+  if (shading.channels() != 3 || !mask.same_size(shading)) {
+    throw std::invalid_argument("The spread of light needs a colour picture and a mask of its size.");
+  }
+  std::vector<Eigen::Vector3d> seen;  // r and g shares, sum
+  Eigen::Vector3d sums = Eigen::Vector3d::Zero();
+  for (int y = 0; y < shading.height(); ++y) {
+    for (int x = 0; x < shading.width(); ++x) {
+      const Eigen::Vector3d rgb = Eigen::Map<const Eigen::Vector3f>(shading.pixel(x, y)).cast<double>();
+      const double total = rgb.sum();
+      if (!set(mask, x, y) || !(total > 0)) continue;
+      seen.emplace_back(rgb(0) / total, rgb(1) / total, total);
+      sums += Eigen::Vector3d(rgb(0), rgb(1), total);
+    }
+  }
+  if (seen.empty()) return 0;
+  const Eigen::Vector2d mean = sums.head<2>() / sums(2);
+  double squares = 0;
+  for (const Eigen::Vector3d& at : seen) squares += at(2) * (at.head<2>() - mean).squaredNorm();
+  return std::sqrt(squares / sums(2));
+}
+
 std::string why_unsuitable(const PhotoMeasures& measures, const PhotoLimits& limits) {
-  const std::array<Limit, 3> upper = {{
+  const std::array<Limit, 4> upper = {{
       {measures.occluded_share, limits.max_occluded_share, "much of the face is turned away or covered: a share of"},
       {measures.clipped_share, limits.max_clipped_share, "much of the skin is burnt out: a share of"},
       {measures.reprojection_share, limits.max_reprojection_share,
        "the expression is too strong to align: an error per width of the face of"},
+      {measures.light_colour_spread, limits.max_light_colour_spread,
+       "the lights have several colours: a spread of chromaticity of"},
   }};
   std::ostringstream why;
   why << std::setprecision(3);

@@ -1,11 +1,12 @@
 #pragma once
 // What keeps unsupervised finetuning honest. Two things: which photos to leave out (the paper's Section 5.1 removed by
-// hand those with a strong expression or several light colours; several colours are not told here), and penalties for
-// two separations that make the low-rank loss small for the wrong reason: the diffuse layer is black, or the colours of
-// the skin have gone into the highlight.
+// hand those with a strong expression or several light colours), and penalties for two separations that make the
+// low-rank loss small for the wrong reason: the diffuse layer is black, or the colours of the skin have gone into the
+// highlight.
 //
 //   PhotoMeasures measures = measure_photo(frontal, masks);
 //   measures.reprojection_share = face.reprojection_rms_px / face.box.width;
+//   measures.light_colour_spread = chroma_spread(shading, masks.seen);
 //   if (const std::string why = why_unsuitable(measures); !why.empty()) leave_out(photo, why);
 //
 //   const Penalty black = black_diffuse(picture, highlight, weight);
@@ -34,9 +35,10 @@ struct PhotoMeasures {
   // than four pixels (out of focus, or enlarged from a small face), about 1/2 for natural pictures, 1 for noise.
   // Exposure and contrast do not enter.
   double sharpness = 0;
-  double occluded_share = 0;      // of the skin that the photo does not show, 0 .. 1
-  double clipped_share = 0;       // of the skin that it shows, 0 .. 1
-  double reprojection_share = 0;  // Face::reprojection_rms_px, of the rigid mean face, per width of the face
+  double occluded_share = 0;       // of the skin that the photo does not show, 0 .. 1
+  double clipped_share = 0;        // of the skin that it shows, 0 .. 1
+  double reprojection_share = 0;   // Face::reprojection_rms_px, of the rigid mean face, per width of the face
+  double light_colour_spread = 0;  // chroma_spread() of the diffuse shading: several light colours
 };
 
 // Defaults are own choices, not the paper's, which names none.
@@ -45,11 +47,16 @@ struct PhotoLimits {
   double max_occluded_share = 0.35;
   double max_clipped_share = 0.05;
   double max_reprojection_share = 0.04;  // an open mouth or a wide smile
+  double max_light_colour_spread = 0.03;
 };
 
-// The first three measures; the caller fills in the last. `frontal`: S x S x 3, linear. Throws
+// The first three measures; the caller fills in the other two. `frontal`: S x S x 3, linear. Throws
 // std::invalid_argument: sizes, no skin.
 PhotoMeasures measure_photo(const Image& frontal, const PhotoMasks& masks);
+// Root mean square distance of the chromaticities (r, g) / (r + g + b) from their mean, weighted by r + g + b; 0 where
+// nothing is lit. `shading`: H x W x 3, >= 0: diffuse shading (picture over albedo), or one photo over the mean of the
+// person's. `mask` as above.
+double chroma_spread(const Image& shading, const ByteImage& mask);
 // Empty when the photo can be used; else one sentence with the number and the limit.
 std::string why_unsuitable(const PhotoMeasures& measures, const PhotoLimits& limits = {});
 

@@ -189,8 +189,40 @@ TEST(FinetuneGuards, SharesAreOfTheSkin) {
   EXPECT_THROW(measure_photo(Image(4, 4, 3), masks()), std::invalid_argument);
 }
 
+TEST(FinetuneGuards, SeveralLightColoursSpreadTheChromaOfShading) {
+  // One half lit by a window, the other by a lamp; and one colour with the same changes of brightness.
+  Image two(64, 64, 3);
+  Image one(64, 64, 3);
+  for (int y = 0; y < 64; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      const float window = static_cast<float>(x) / 63;
+      const float lamp = 1 - window;
+      const float brightness = 0.5F + 0.4F * window;
+      const float colour[3] = {lamp * 1.2F + window * 0.8F, lamp + window, lamp * 0.6F + window * 1.3F};
+      for (int c = 0; c < 3; ++c) {
+        two(x, y, c) = colour[c];
+        one(x, y, c) = brightness * (c == 2 ? 0.7F : 1.0F);
+      }
+    }
+  }
+  const ByteImage all(64, 64, 1, 255);
+  EXPECT_GT(chroma_spread(two, all), PhotoLimits{}.max_light_colour_spread);
+  EXPECT_LT(chroma_spread(one, all), 1e-6);  // float
+  // Two chromaticities of equal light, d apart: each is d / 2 from the mean.
+  Image pair(2, 1, 3, 1.0F);
+  pair(0, 0, 0) = 1.3F;
+  pair(0, 0, 1) = 0.7F;
+  EXPECT_NEAR(chroma_spread(pair, ByteImage(2, 1, 1, 1)), 0.5 * std::hypot(0.1, 0.1), 1e-7);
+  EXPECT_EQ(chroma_spread(Image(2, 1, 3), ByteImage(2, 1, 1, 1)), 0) << "darkness has no colour";
+  EXPECT_THROW(chroma_spread(pair, all), std::invalid_argument);
+}
+
 TEST(FinetuneGuards, EachCriterionLeavesAPhotoOutAndSaysWhy) {
-  const PhotoMeasures good{.sharpness = 0.5, .occluded_share = 0.1, .clipped_share = 0.01, .reprojection_share = 0.02};
+  const PhotoMeasures good{.sharpness = 0.5,
+                           .occluded_share = 0.1,
+                           .clipped_share = 0.01,
+                           .reprojection_share = 0.02,
+                           .light_colour_spread = 0.01};
   EXPECT_EQ(why_unsuitable(good), "");
   const auto reason = [&](double PhotoMeasures::*measure, double value) {
     PhotoMeasures bad = good;
@@ -201,6 +233,7 @@ TEST(FinetuneGuards, EachCriterionLeavesAPhotoOutAndSaysWhy) {
   EXPECT_NE(reason(&PhotoMeasures::occluded_share, 0.5).find("turned away"), std::string::npos);
   EXPECT_NE(reason(&PhotoMeasures::clipped_share, 0.2).find("burnt out"), std::string::npos);
   EXPECT_NE(reason(&PhotoMeasures::reprojection_share, 0.08).find("expression"), std::string::npos);
+  EXPECT_NE(reason(&PhotoMeasures::light_colour_spread, 0.1).find("several colours"), std::string::npos);
   EXPECT_NE(reason(&PhotoMeasures::clipped_share, std::numeric_limits<double>::quiet_NaN()), "");
 }
 
