@@ -14,9 +14,10 @@ namespace faceprobe::train {
 
 namespace {
 
-constexpr int kFarPx = 4;             // what neighbours' differences are compared with
-constexpr double kDarkest = 1e-3;     // of the picture; below it a share of the light is not measured
-constexpr double kFaintShare = 1e-3;  // of the picture's energy; highlights below it have no colour to speak of
+constexpr int kFarPx = 4;               // what neighbours' differences are compared with
+constexpr double kDarkest = 1e-3;       // of the picture; below it a share of the light is not measured
+constexpr double kChromaFloor = 0.005;  // of r + g + b, as in train/chromaticity.h
+constexpr double kFaintShare = 1e-3;    // of the picture's energy; highlights below it have no colour to speak of
 constexpr double kPurePrimary = 2.0 / 3;
 
 bool set(const ByteImage& mask, int x, int y) { return !mask.empty() && mask(x, y) != 0; }
@@ -55,6 +56,25 @@ void check(const Eigen::MatrixX3d& picture, const Eigen::MatrixX3d& highlight, c
   if (!(weight.size() > 0 && weight.minCoeff() >= 0 && weight.sum() > 0)) {
     throw std::invalid_argument("A guard needs weights that are not negative and not all zero.");
   }
+}
+
+// Chromaticity (r, g) / (r + g + b) of a pixel, its channels clipped at 0, and what it was divided by.
+struct Chroma {
+  Eigen::RowVector2d value;
+  double total;
+  bool floored;
+};
+
+Chroma chroma(const Eigen::RowVector3d& colour) {
+  const Eigen::RowVector3d rgb = colour.cwiseMax(0.0);
+  const double total = std::max(rgb.sum(), kChromaFloor);
+  return {rgb.head<2>() / total, total, rgb.sum() <= kChromaFloor};
+}
+
+Eigen::RowVector2d mean_chroma(const Eigen::MatrixX3d& diffuse, const Eigen::VectorXd& weight) {
+  Eigen::RowVector2d sum = Eigen::RowVector2d::Zero();
+  for (Eigen::Index i = 0; i < diffuse.rows(); ++i) sum += weight(i) * chroma(diffuse.row(i)).value;
+  return sum / weight.sum();
 }
 
 }  // namespace
@@ -149,6 +169,42 @@ Penalty black_diffuse(const Eigen::MatrixX3d& picture, const Eigen::MatrixX3d& h
       if (lack <= 0) continue;
       penalty.value += per_value * weight(i) * lack * lack;
       penalty.gradient(i, c) = per_value * weight(i) * 2 * lack / unit;
+    }
+  }
+  return penalty;
+}
+
+double chroma_variance(const Eigen::MatrixX3d& diffuse, const Eigen::VectorXd& weight) {
+  check(diffuse, diffuse, weight);
+  const Eigen::RowVector2d mean = mean_chroma(diffuse, weight);
+  double squares = 0;
+  for (Eigen::Index i = 0; i < diffuse.rows(); ++i) {
+    squares += weight(i) * (chroma(diffuse.row(i)).value - mean).squaredNorm();
+  }
+  return squares / weight.sum();
+}
+
+Penalty one_colour_diffuse(const Eigen::MatrixX3d& picture, const Eigen::MatrixX3d& highlight,
+                           const Eigen::VectorXd& weight, double reference_variance, double least) {
+  check(picture, highlight, weight);
+  if (!(least > 0 && least < 1)) throw std::invalid_argument("The least share of variance lies between 0 and 1.");
+  if (!(reference_variance > 0))
+    throw std::invalid_argument("The reference's variance of chromaticity must be positive.");
+  const Eigen::MatrixX3d diffuse = picture - highlight;
+  Penalty penalty{0, Eigen::MatrixX3d::Zero(picture.rows(), 3)};
+  const double lack = 1 - chroma_variance(diffuse, weight) / (least * reference_variance);
+  if (lack <= 0) return penalty;
+  penalty.value = lack * lack;
+  const Eigen::RowVector2d mean = mean_chroma(diffuse, weight);
+  // The mean moves too, but the sum of squares does not feel it there.
+  const double by_variance = -2 * lack / (least * reference_variance);
+  for (Eigen::Index i = 0; i < picture.rows(); ++i) {
+    const Chroma at = chroma(diffuse.row(i));
+    const Eigen::RowVector2d by_chroma = by_variance * 2 * weight(i) / weight.sum() * (at.value - mean);
+    const double through_sum = at.floored ? 0.0 : by_chroma.dot(at.value);
+    for (int c = 0; c < 3; ++c) {
+      // Highlight up, diffuse down.
+      if (diffuse(i, c) > 0) penalty.gradient(i, c) = -((c < 2 ? by_chroma(c) : 0.0) - through_sum) / at.total;
     }
   }
   return penalty;

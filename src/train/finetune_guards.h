@@ -1,8 +1,8 @@
 #pragma once
 // What keeps unsupervised finetuning honest. Two things: which photos to leave out (the paper's Section 5.1 removed by
-// hand those with a strong expression or several light colours), and penalties for two separations that make the
-// low-rank loss small for the wrong reason: the diffuse layer is black, or the colours of the skin have gone into the
-// highlight.
+// hand those with a strong expression or several light colours), and penalties for the three separations that make the
+// low-rank loss small for the wrong reason: the diffuse layer is black, or all of one colour, or the colours of the
+// skin have gone into the highlight.
 //
 //   PhotoMeasures measures = measure_photo(frontal, masks);
 //   measures.reprojection_share = face.reprojection_rms_px / face.box.width;
@@ -65,7 +65,7 @@ struct Penalty {
   Eigen::MatrixX3d gradient;  // of `value` by the highlight; the size of it
 };
 
-// Both: `picture`, `highlight`: #pixels x 3; `weight`: #pixels, >= 0, 0 = not in the mask. Values are weighted
+// All three: `picture`, `highlight`: #pixels x 3; `weight`: #pixels, >= 0, 0 = not in the mask. Values are weighted
 // means over the mask and do not depend on resolution or exposure; gradients are continuous. value > 0 says that the
 // separation is on the way to that minimum. Throw std::invalid_argument: sizes, no weight, options out of range.
 
@@ -75,7 +75,15 @@ struct Penalty {
 Penalty black_diffuse(const Eigen::MatrixX3d& picture, const Eigen::MatrixX3d& highlight, const Eigen::VectorXd& weight,
                       double least = 0.1);
 
-// (b) The highlight takes the colours of lips, beard and blush: with c the share of the highlight's energy (sum of
+// (b) The diffuse layer takes one colour everywhere: max(0, 1 - v / (least v_ref))^2, v the variance of its
+// chromaticity (r, g) / (r + g + b). `reference_variance`, > 0: chroma_variance() of a diffuse layer to be trusted,
+// such as that of the network before finetuning. Real finetuning takes out the white of highlights it missed, so that
+// less than all of v_ref must stay: 0 < least < 1.
+Penalty one_colour_diffuse(const Eigen::MatrixX3d& picture, const Eigen::MatrixX3d& highlight,
+                           const Eigen::VectorXd& weight, double reference_variance, double least = 0.3);
+double chroma_variance(const Eigen::MatrixX3d& diffuse, const Eigen::VectorXd& weight);
+
+// (c) The highlight takes the colours of lips, beard and blush: with c the share of the highlight's energy (sum of
 // squares) that is not grey, after division by `light_colour`, max(0, (c - most) / (2/3 - most))^2; 2/3 is a pure
 // primary. Right where one light of that colour is reflected (skin mirrors without colouring); `most`, 0 <= most < 2/3,
 // allows for lights that differ a little. A highlight of less than a thousandth of the picture's energy fades out of

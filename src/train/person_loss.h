@@ -29,7 +29,7 @@ struct PersonLossOptions {
   bool rank1 = true;  // the distance to rank one; false = the paper's second singular value
   // Of the chromaticity, in the square: what landmarks misplace is not to look like a highlight. The paper has none.
   float blur_sigma_px = 2.5F;
-  double guard_weight = 0.1;  // of each of the two guards of train/finetune_guards.h; 0 = none
+  double guard_weight = 0.1;  // of each of the two guards of train/finetune_guards.h that one photo allows; 0 = none
   // Of the mean over photos of (energy / trusted energy - 1)^2: the shortest way to one chromaticity is a diffuse layer that fades.
   double energy_weight = 0.5;
 

@@ -77,6 +77,29 @@ TEST(FinetuneGuards, BlackDiffuseBitesWhenEverythingGoesToTheHighlight) {
   EXPECT_EQ(black_diffuse(Eigen::MatrixX3d::Zero(kPixels, 3), Eigen::MatrixX3d::Zero(kPixels, 3), sane.weight).value, 0);
 }
 
+TEST(FinetuneGuards, OneColourDiffuseBitesWhenLipsAndBeardTurnIntoSkin) {
+  const Separation sane;
+  const Eigen::MatrixX3d picture = sane.picture();
+  const double reference = chroma_variance(sane.diffuse, sane.weight);
+  const Guard guard = [&](const Eigen::MatrixX3d& h) { return one_colour_diffuse(picture, h, sane.weight, reference); };
+  EXPECT_EQ(guard(sane.highlight).value, 0);
+  EXPECT_EQ(guard(0.8 * sane.highlight).value, 0) << "a highlight that is a little too weak";
+  // The largest diffuse layer of skin's colour, or of grey, that the picture allows in every channel.
+  for (const Eigen::RowVector3d& colour : {Eigen::RowVector3d(0.5, 0.31, 0.22), Eigen::RowVector3d(1, 1, 1)}) {
+    const Eigen::VectorXd level = (picture * colour.cwiseInverse().asDiagonal()).rowwise().minCoeff();
+    const Eigen::MatrixX3d one_colour = level * colour;
+    EXPECT_NEAR(guard(picture - one_colour).value, 1, 1e-12);
+    const Eigen::MatrixX3d nearly = 0.8 * one_colour + 0.2 * sane.diffuse;
+    EXPECT_GT(guard(picture - nearly).value, 0.1);
+    EXPECT_LT(gradient_error(guard, picture - nearly), kGradientTolerance);
+    // Going down the gradient brings the colours back.
+    const Eigen::MatrixX3d h = picture - nearly;
+    const Penalty here = guard(h);
+    const double step = 0.1 * here.value / here.gradient.squaredNorm();
+    EXPECT_LT(guard(h - step * here.gradient).value, here.value);
+  }
+}
+
 TEST(FinetuneGuards, ColouredHighlightBitesWhenItTakesTheSkinsColours) {
   const Separation sane;
   const Eigen::MatrixX3d picture = sane.picture();
@@ -112,13 +135,15 @@ TEST(FinetuneGuards, PenaltiesDoNotDependOnResolutionOrExposure) {
   const Separation sane;
   const Eigen::MatrixX3d picture = sane.picture();
   const Eigen::MatrixX3d h = 0.95 * picture;
+  const double reference = chroma_variance(sane.diffuse, sane.weight);
   const auto values = [&](double gain, int copies) {
     const Eigen::MatrixX3d p = gain * picture.replicate(copies, 1);
     const Eigen::MatrixX3d high = gain * h.replicate(copies, 1);
     const Eigen::VectorXd w = sane.weight.replicate(copies, 1);
-    return Eigen::Vector2d(black_diffuse(p, high, w).value, coloured_highlight(p, high, w).value);
+    return Eigen::Vector3d(black_diffuse(p, high, w).value, one_colour_diffuse(p, high, w, 10 * reference).value,
+                           coloured_highlight(p, high, w).value);
   };
-  const Eigen::Vector2d here = values(1, 1);
+  const Eigen::Vector3d here = values(1, 1);
   EXPECT_GT(here.minCoeff(), 1e-4) << "each is awake";
   EXPECT_LT((values(1, 4) - here).cwiseAbs().maxCoeff(), 1e-12);  // the order of sums
   EXPECT_LT((values(3, 1) - here).cwiseAbs().maxCoeff(), 1e-12);
@@ -130,6 +155,7 @@ TEST(FinetuneGuards, PenaltiesRefuseWhatDoesNotFit) {
   EXPECT_THROW(black_diffuse(picture, Eigen::MatrixX3d::Zero(3, 3), sane.weight), std::invalid_argument);
   EXPECT_THROW(black_diffuse(picture, picture, Eigen::VectorXd::Zero(kPixels)), std::invalid_argument);
   EXPECT_THROW(black_diffuse(picture, picture, sane.weight, 1), std::invalid_argument);
+  EXPECT_THROW(one_colour_diffuse(picture, picture, sane.weight, 0), std::invalid_argument);
   EXPECT_THROW(coloured_highlight(picture, picture, sane.weight, {1, 0, 1}), std::invalid_argument);
   EXPECT_THROW(coloured_highlight(picture, picture, sane.weight, {1, 1, 1}, 0.7), std::invalid_argument);
 }
