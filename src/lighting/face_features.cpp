@@ -16,7 +16,6 @@ constexpr float kWidth = 0.14F;          // radians: half a cell's spacing
 constexpr float kLeastCosine = 0.85F;    // four widths
 constexpr float kEnoughWeight = 0.005F;  // of all patches: at this much a cell is half known
 
-constexpr float kBrightest = 30;        // of the surround, over the level: a bright wall behind a face in the dark
 constexpr float kBrightestLight = 300;  // of the solved light, over the level
 
 using Cells = Eigen::Matrix<float, kFeatureCells, 4, Eigen::RowMajor>;
@@ -105,10 +104,6 @@ Eigen::VectorXf face_features(const Observations& observations) {
   constexpr int kHalf = kCellFeatures / 2;
   features.head<kHalf>() = Eigen::Map<const Eigen::VectorXf>(shading.data(), kHalf);
   features.segment<kHalf>(kHalf) = Eigen::Map<const Eigen::VectorXf>(highlight.data(), kHalf);
-  Surround around = observations.surround;
-  around.leftCols<3>() = (around.leftCols<3>() / level).cwiseMin(kBrightest).cwiseSqrt();
-  features.segment<kSurroundFeatures>(kCellFeatures) =
-      Eigen::Map<const Eigen::VectorXf>(around.data(), kSurroundFeatures);
   features.tail<kSolvedFeatures>() = solved_features(observations, level);
   return features;
 }
@@ -129,11 +124,8 @@ Eigen::VectorXf mirrored_features(const Eigen::VectorXf& features) {
       out.segment<4>(4 * (half * kFeatureCells + j)) = features.segment<4>(4 * (half * kFeatureCells + from));
     }
   }
-  const Surround around(features.data() + kCellFeatures);
-  const Surround turned = mirrored(around);
-  out.segment<kSurroundFeatures>(kCellFeatures) = Eigen::Map<const Eigen::VectorXf>(turned.data(), kSurroundFeatures);
   using Solved = Eigen::Matrix<float, kFeatureCells, 3, Eigen::RowMajor>;
-  const Solved solved(features.data() + kCellFeatures + kSurroundFeatures);
+  const Solved solved(features.data() + kCellFeatures);
   const Solved turned_light = mirrored_cells(solved);
   out.tail<kSolvedFeatures>() = Eigen::Map<const Eigen::VectorXf>(turned_light.data(), kSolvedFeatures);
   return out;

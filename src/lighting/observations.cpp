@@ -12,7 +12,6 @@ void Observations::resize(Eigen::Index patches) {
   specular_albedo.setConstant(patches, 0.18F);
   weight.setOnes(patches);
   horizon.resize(0, kHorizonAzimuths);
-  surround.setZero();
 }
 
 std::string Observations::validate() const {
@@ -24,7 +23,6 @@ std::string Observations::validate() const {
   if (horizon.rows() != 0 && (horizon.rows() != n || horizon.cols() != kHorizonAzimuths)) {
     return "Observations need a horizon of " + std::to_string(kHorizonAzimuths) + " azimuths for each normal, or none.";
   }
-  if (!surround.allFinite() || surround.minCoeff() < 0) return "A surround must be finite and not negative.";
   if (n == 0) return {};
   if (!normal.allFinite() || !view.allFinite() || !highlight.allFinite() || !shading.allFinite() || !weight.allFinite()) {
     return "Observations hold values that are not finite.";
@@ -42,16 +40,6 @@ std::string Observations::validate() const {
   if (!specular_albedo.allFinite() || !(specular_albedo.minCoeff() > 0)) return "Specular albedos must be positive.";
   return {};
 }
-
-namespace {
-
-// Each sector's values times the share that is known of it.
-Surround weighed(Surround surround) {
-  for (int sector = 0; sector < kSurroundSectors; ++sector) surround.row(sector).head<4>() *= surround(sector, 4);
-  return surround;
-}
-
-}  // namespace
 
 Observations concatenate(const std::vector<Observations>& sets) {
   Eigen::Index total = 0;
@@ -76,13 +64,7 @@ Observations concatenate(const std::vector<Observations>& sets) {
     all.specular_albedo.segment(at, n) = set.specular_albedo;
     all.weight.segment(at, n) = set.weight;
     if (set.horizon.rows() > 0) all.horizon.middleRows(at, n) = set.horizon;
-    all.surround += weighed(set.surround);
     at += n;
-  }
-  for (int sector = 0; sector < kSurroundSectors; ++sector) {
-    const float known = all.surround(sector, 4);
-    if (known > 0) all.surround.row(sector).head<4>() /= known;
-    all.surround(sector, 4) = known / static_cast<float>(sets.size());
   }
   return all;
 }

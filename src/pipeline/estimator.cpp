@@ -1,7 +1,6 @@
 #include "faceprobe/core/error.h"
 #include "faceprobe/face/canonical_mesh.h"
 #include "faceprobe/io/data_files.h"
-#include "faceprobe/pipeline/observe.h"
 #include "pipeline/camera_of.h"
 #include "pipeline/estimator_impl.h"
 #include "pipeline/expected_light.h"
@@ -48,9 +47,7 @@ FaceEstimate Estimator::Impl::analyse(const io::Photo& photo, const face::Camera
   watch.lap("geometry");
 
   out.enough_shown = shown_share(crop, photo.linear.width(), photo.linear.height()) >= options.least_shown;
-  const lighting::Surround surround = surround_of_face(photo.linear, out.geometry);
   read_layers(reader, options, photo.grey, out.enough_shown, out, &watch);
-  out.observations.surround = surround;
   lighting::Light light = light_of(out.observations, out.enough_shown);
   if (prior && out.enough_shown) out.sources.prior = PriorSource::kNet;
   watch.lap("light");

@@ -23,7 +23,6 @@ lighting::Observations thinned(const lighting::Observations& all, Eigen::Index k
   set.specular_albedo = all.specular_albedo(rows);
   set.weight = all.weight(rows);
   if (all.horizon.rows() > 0) set.horizon = all.horizon(rows, Eigen::all);
-  set.surround = all.surround;
   return set;
 }
 
@@ -65,7 +64,6 @@ lighting::Observations joint_observations(const std::vector<FaceEvidence>& faces
     const auto gain = static_cast<float>(wanted / face.energy);
     set.highlight *= gain;
     set.shading *= gain;
-    set.surround.leftCols<3>() *= gain;
     sets.push_back(std::move(set));
   }
   return lighting::concatenate(sets);

@@ -1,6 +1,5 @@
 #include "faceprobe/pipeline/observe.h"
 
-#include "faceprobe/core/pixel_box.h"
 #include "faceprobe/core/skin_reflectance.h"
 #include "faceprobe/core/smooth_step.h"
 #include "faceprobe/io/photo.h"
@@ -8,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <vector>
 
 namespace faceprobe::pipeline {
@@ -82,15 +80,6 @@ ByteImage skin_regions(const ByteImage& region) {
     return r <= kSkinRegionCount ? r : std::uint8_t{0};
   });
   return skin;
-}
-
-lighting::Surround surround_of_face(const Image& photo, const face::FaceGeometry& geometry) {
-  const std::optional<PixelBox> box = box_of(geometry.region);
-  if (!box) return lighting::Surround::Zero();
-  const Eigen::Vector2d centre_px =
-      geometry.crop.photo_from_crop(0.5 * (box->left + box->right), 0.5 * (box->top + box->bottom));
-  return lighting::surround_of(photo, centre_px.cast<float>(),
-                               static_cast<float>(0.5 * box->height() / geometry.crop.scale));
 }
 
 lighting::Observations observe(const face::FaceGeometry& geometry, const Image& highlight, const Image& shading,

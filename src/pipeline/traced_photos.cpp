@@ -6,7 +6,6 @@
 #include "faceprobe/core/region.h"
 #include "faceprobe/core/resample.h"
 #include "faceprobe/lighting/face_features.h"
-#include "faceprobe/pipeline/observe.h"
 #include "faceprobe/synth/photo_layers.h"
 #include "faceprobe/synth/shard.h"
 #include "faceprobe/synth/traced.h"
@@ -68,10 +67,7 @@ std::optional<synth::TracedPhoto> trace_photo(const synth::ShardReader& faces, i
   const synth::Sample sample = faces.copy_sample(number);
   if (!sample.lamps.empty()) return std::nullopt;  // a group's room: no one map lights it
   FaceEstimate face = face_of(sample, faces.copy_view(number), mesh, *window);
-  // Of the mesh, before the network's regions take its place.
-  const lighting::Surround surround = surround_of_face(synth::photo_layers(sample).linear, face.geometry);
   read_layers(reader, options, false, true, face);
-  face.observations.surround = surround;
   const float level = lighting::shading_level(face.observations);
   if (face.observations.count() < kLeastPatches || !(level > 0)) return std::nullopt;
   const SphereGrid grid(lighting::kFeatureNside);

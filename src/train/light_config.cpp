@@ -20,7 +20,6 @@ constexpr auto kEachLightField = [](auto& config, const auto& visit) {
   visit("grey_share", config.grey_share, 0, 1);
   visit("lobe_weight", config.lobe_weight, 0, 100);
   visit("shape_weight", config.shape_weight, 0, 100);
-  visit("surround_drop", config.surround_drop, 0, 1);
   visit("seed", config.seed, 0, 1e18);
 };
 

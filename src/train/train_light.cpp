@@ -21,8 +21,7 @@
 namespace faceprobe::train {
 namespace {
 
-constexpr double kDarkest = 1e-4;  // of the level
-constexpr std::int64_t kSolvedBegin = lighting::kCellFeatures + lighting::kSurroundFeatures;
+constexpr double kDarkest = 1e-4;               // of the level
 constexpr std::int64_t kExamplesAtOnce = 1024;  // examples validated together
 
 struct Examples {
@@ -98,8 +97,7 @@ torch::Tensor grey_groups(const torch::Tensor& features, std::int64_t size) {
 Examples grey(const Examples& examples) {
   const torch::Tensor level = (examples.light * luminance_weights()).sum(2, true).expand_as(examples.light);
   return {torch::cat({grey_groups(examples.features.narrow(1, 0, lighting::kCellFeatures), 4),
-                      grey_groups(examples.features.narrow(1, lighting::kCellFeatures, lighting::kSurroundFeatures), 5),
-                      grey_groups(examples.features.narrow(1, kSolvedBegin, lighting::kSolvedFeatures), 3)},
+                      grey_groups(examples.features.narrow(1, lighting::kCellFeatures, lighting::kSolvedFeatures), 3)},
                      1),
           level.contiguous()};
 }
@@ -190,13 +188,6 @@ class LightTraining {
     torch::Tensor features = examples.features + config_.input_noise * spread * torch::randn_like(examples.features);
     const torch::Tensor kept = torch::rand_like(features) >= config_.input_drop;
     features = torch::where(kept, features, net_->named_buffers()["mean"].expand_as(features));
-    // Cut out, or the face fills the photo: nothing is known then, which is zero.
-    const torch::Tensor alone = torch::rand({features.size(0), 1}) < config_.surround_drop;
-    features =
-        torch::cat({features.narrow(1, 0, lighting::kCellFeatures),
-                    features.narrow(1, lighting::kCellFeatures, lighting::kSurroundFeatures).masked_fill(alone, 0),
-                    features.narrow(1, kSolvedBegin, lighting::kSolvedFeatures)},
-                   1);
     const LightLoss::Terms terms = loss_.terms(light_of(features), examples.light);
     (terms.diffuse + config_.shape_weight * terms.shape + config_.lobe_weight * terms.glossy).backward();
     constexpr double kLargestGradient = 1;

@@ -39,12 +39,10 @@ TEST(FaceFeatures, HoldShadingByNormalAndHighlightsByMirrorDirection) {
 
 TEST(FaceFeatures, TheScaleOfTheLightDoesNotMatter) {
   Observations face = lit_face({1, 1, 1});
-  face.surround.row(7) << 0.3F, 0.2F, 0.1F, 0, 1;
   const Eigen::VectorXf once = face_features(face);
   const float level = shading_level(face);
   face.shading *= 5;
   face.highlight *= 5;
-  face.surround.leftCols<3>() *= 5;
   EXPECT_LT((face_features(face) - once).cwiseAbs().maxCoeff(), 1e-4F);  // float
   EXPECT_NEAR(shading_level(face), 5 * level, 1e-3F * level);
 }
@@ -58,31 +56,26 @@ TEST(FaceFeatures, HardlyDependOnTheNumberOfPatches) {
 
 TEST(FaceFeatures, AMirroredFaceHasMirroredFeatures) {
   Observations face = lit_face({1, 0.5, 1});
-  face.surround.row(7) << 0.3F, 0.2F, 0.1F, 0, 1;
   const Eigen::VectorXf features = face_features(face);
   face.normal.col(0) *= -1;
   face.view.col(0) *= -1;
-  face.surround = mirrored(face.surround);
   const Eigen::VectorXf other = face_features(face);
   EXPECT_LT((other - mirrored_features(features)).cwiseAbs().maxCoeff(), 1e-4F);
   EXPECT_GT((other - features).cwiseAbs().maxCoeff(), 0.1F);
   EXPECT_EQ(mirrored_features(mirrored_features(features)), features);
 }
 
-TEST(FaceFeatures, EndWithWhatIsAroundTheFace) {
-  Observations face = lit_face({1, 1, 1});
-  const float level = shading_level(face);
-  face.surround.row(2) << 4 * level, level, 1e6F * level, 0.25F, 0.5F;
-  const Eigen::VectorXf features = face_features(face);
-  const Surround around(features.data() + kCellFeatures);
-  EXPECT_NEAR(around(2, 0), 2, 1e-5F);
-  EXPECT_NEAR(around(2, 1), 1, 1e-5F);
-  EXPECT_LT(around(2, 2), 10);  // bounded: a light in the picture beside a dark face
-  EXPECT_EQ(around(2, 3), 0.25F);
-  EXPECT_EQ(around(2, 4), 0.5F);
-  EXPECT_TRUE(around.row(3).isZero());
-  face.surround.setZero();
-  EXPECT_EQ(face_features(face).head<kCellFeatures>(), features.head<kCellFeatures>());
+// Cells are 15 degrees wide, and what is found is smooth.
+TEST(FaceFeatures, EndWithTheLightThatTheSolverFinds) {
+  const Eigen::Vector3f towards = Eigen::Vector3f(0.5F, 0.4F, 1).normalized();
+  const Eigen::VectorXf features = face_features(lit_face(towards));
+  using Solved = Eigen::Matrix<float, kFeatureCells, 3, Eigen::RowMajor>;
+  const Solved solved(features.data() + kCellFeatures);
+  EXPECT_GE(solved.minCoeff(), 0);
+  Eigen::Index brightest = 0;
+  solved.col(1).maxCoeff(&brightest);
+  EXPECT_GT(SphereGrid(kFeatureNside).direction(static_cast<int>(brightest)).dot(towards), 0.9F);  // 26 degrees
+  EXPECT_GT(solved(brightest, 0), solved(brightest, 2));                                           // a warm lamp
 }
 
 TEST(FaceFeatures, CellsMirrorAsTheirDirectionsDo) {

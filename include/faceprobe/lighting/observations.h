@@ -8,8 +8,6 @@
 //   ball.resize(patches);                                   // then fill normal, view, highlight, shading row by row
 //   const Light light = solve(ball, {});                    // lighting/estimate.h
 
-#include "faceprobe/lighting/surround.h"
-
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
@@ -34,18 +32,15 @@ struct Observations {
   // #patches x kHorizonAzimuths: tangent of the elevation (over the image plane, towards +z) under which light is blocked by
   // the face itself. Empty = nothing blocks.
   Eigen::MatrixXf horizon;
-  // What the photo shows around the face, on the scale of the layers; zero = not known. The solvers do not look at it; face_features do.
-  Surround surround = Surround::Zero();
 
   Eigen::Index count() const { return normal.rows(); }
-  // All rows 0, unclipped, of weight 1, with the roughness and specular albedo of average skin; no horizon, no surround.
+  // All rows 0, unclipped, of weight 1, with the roughness and specular albedo of average skin; no horizon.
   void resize(Eigen::Index patches);
   // Empty when usable, else a sentence that says what is missing.
   std::string validate() const;
 };
 
 // One set after the other. Sets with and without horizon mix; where there is none, nothing blocks.
-// The surround is the mean of those that are known, sector by sector.
 Observations concatenate(const std::vector<Observations>& sets);
 
 }  // namespace faceprobe::lighting

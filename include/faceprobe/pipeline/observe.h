@@ -14,9 +14,6 @@ namespace faceprobe::pipeline {
 lighting::Observations observe(const face::FaceGeometry& geometry, const Image& highlight, const Image& shading,
                                const ByteImage& flags, int max_patches, int threads);
 
-// What the photo (H x W x 3, linear) shows around the face that the geometry's regions cover; zero where they cover nothing.
-lighting::Surround surround_of_face(const Image& photo, const face::FaceGeometry& geometry);
-
 // `region` (face::FaceGeometry) where it is skin, 0 elsewhere: crop x 1.
 ByteImage skin_regions(const ByteImage& region);
 

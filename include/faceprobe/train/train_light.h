@@ -29,7 +29,6 @@ struct LightConfig {
   double grey_share = 0.05;       // of examples without colour
   double lobe_weight = 0.15;      // of the glossy ball's error against the diffuse ball's
   double shape_weight = 0;        // of the diffuse ball's where each picture is over its own brightest point
-  double surround_drop = 0.2;     // share of examples that are shown nothing of what is around the face
   std::uint64_t seed = 1;
 
   // Empty when usable, else a sentence that says which value is wrong.
