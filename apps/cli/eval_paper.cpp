@@ -1,10 +1,10 @@
 #include "eval_paper.h"
 
+#include "eval_results.h"
 #include "faceprobe/core/error.h"
 #include "faceprobe/core/version.h"
 #include "faceprobe/eval/earlier_rows.h"
 #include "faceprobe/io/atomic_file.h"
-#include "faceprobe/io/data_files.h"
 #include "faceprobe/synth/shard.h"
 #include "paper/plan.h"
 #include "paper/print_pdf.h"
@@ -18,7 +18,9 @@
 #include <functional>
 #include <iterator>
 #include <memory>
+#include <set>
 #include <span>
+#include <string>
 
 namespace faceprobe::cli {
 
@@ -71,9 +73,7 @@ std::string made_with(const PaperPlan& plan) {
 
 int run(PaperPlan plan) {
   require_data(plan);
-  constexpr std::int64_t kMostBytes = std::int64_t{1} << 28;
-  const eval::PaperReport earlier =
-      plan.earlier.empty() ? eval::PaperReport() : eval::report_from_json(io::read_text(plan.earlier, kMostBytes));
+  const eval::PaperReport earlier = plan.earlier.empty() ? eval::PaperReport() : read_report(plan.earlier);
   io::create_folder(plan.output);
   plan.progress = part_progress("synthetic faces");
   make_paper_faces(plan);
@@ -86,7 +86,12 @@ int run(PaperPlan plan) {
   }
   if (!plan.earlier.empty()) {
     const std::set<std::string> taken = eval::add_earlier_rows(report, earlier);
-    spdlog::info("{} rows from {}", taken.empty() ? "no" : std::to_string(taken.size()), plan.earlier.string());
+    if (taken.empty()) {
+      spdlog::warn("no row could be taken from {}: it has none that is missing here, or is of other photos",
+                   plan.earlier.string());
+    } else {
+      spdlog::info("rows of {} methods are from {}", taken.size(), plan.earlier.string());
+    }
   }
   const std::filesystem::path html = plan.output / "report.html";
   io::write_file_atomically(html, eval::report_html(report));

@@ -19,13 +19,17 @@ struct ResultsOptions {
 };
 
 int run(const ResultsOptions& options) {
-  constexpr std::int64_t kMostBytes = std::int64_t{1} << 28;
-  const eval::PaperReport report = eval::report_from_json(io::read_text(options.report, kMostBytes));
+  const eval::PaperReport report = read_report(options.report);
   fmt::print("{}", options.headlines ? headlines(report) : eval::report_markdown(report));
   return 0;
 }
 
 }  // namespace
+
+eval::PaperReport read_report(const std::filesystem::path& json) {
+  constexpr std::int64_t kMostBytes = std::int64_t{1} << 28;
+  return eval::report_from_json(io::read_text(json, kMostBytes));
+}
 
 CLI::App* add_eval_results(CLI::App& eval, Action& action) {
   auto options = std::make_shared<ResultsOptions>();

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cstdio>
 #include <string>
 
 namespace faceprobe::cli {
@@ -24,7 +25,14 @@ class Progress {
 
   // When all is done the line goes: what came of the job is for the caller to say.
   void show(double done, double total, const std::string& text) {
-    if (done >= total) {
+    if (!running_ ||
+        done < last_) {  // another job begins, or one goes on where it was: only what is done from here on tells how fast it is
+      begin_s_ = seconds();
+      begin_ = done;
+    }
+    last_ = done;
+    running_ = done < total;
+    if (!running_) {
       clear();
       return;
     }
@@ -52,13 +60,18 @@ class Progress {
   static constexpr double kInLog_s = 30;
 
   std::string left(double done, double total) const {
-    if (!(done > 0)) return {};
-    const double left_s = seconds() * (total / done - 1);
+    if (!(done > begin_)) return {};
+    const double left_s = (seconds() - begin_s_) * (total - done) / (done - begin_);
     return left_s < 100 ? fmt::format(", {:.0f} s left", left_s) : fmt::format(", {:.0f} min left", left_s / 60);
   }
+
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   bool terminal_ = isatty(STDERR_FILENO) != 0 && spdlog::should_log(spdlog::level::info);  // not with --quiet
   double shown_s_ = 0;  // when the line was written; 0 = there is none
+  bool running_ = false;
+  double last_ = 0;     // of what was done
+  double begin_s_ = 0;  // when the job began,
+  double begin_ = 0;    // and what was done then
 };
 
 }  // namespace faceprobe::cli

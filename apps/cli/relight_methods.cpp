@@ -132,7 +132,14 @@ eval::LightMethod by_harmonics(const SharedPtr& shared, const std::shared_ptr<Sp
 std::optional<eval::LightMethod> by_learnt_transfer(const std::filesystem::path& training, const SharedPtr& shared,
                                                     const std::shared_ptr<SphereGrid>& grid) {
   lighting::RadianceTransferLearner learner;
-  for (const synth::TracedPhoto& photo : synth::read_traced(training)) learner.add(photo.features, photo.light);
+  for (const synth::TracedPhoto& photo : synth::read_traced(training)) {
+    if (photo.features.size() != lighting::kFaceFeatures) {
+      throw Error(ExitCode::kInput,
+                  "What was read from the photos in " + training.string() +
+                      " is of another version. Remove its traced-*.safetensors and run `faceprobe trace` again.");
+    }
+    learner.add(photo.features, photo.light);
+  }
   if (learner.examples() == 0) return std::nullopt;
   return other_solver("knorr and kurz", shared, [transfer = learner.learn(), grid](const lighting::Observations& o) {
     return lighting::radiance_of_harmonics(transfer.solve(lighting::face_features(o)), *grid);

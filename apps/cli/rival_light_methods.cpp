@@ -63,6 +63,11 @@ eval::LightMethod of_face(const std::string& name, const std::shared_ptr<net::Li
           }};
 }
 
+// Names of the rows, and of those that are missing.
+constexpr const char* kGardner = "gardner, trained on few maps";      // 2017
+constexpr const char* kHoldGeoffroy = "hold-geoffroy, preetham sky";  // 2017
+constexpr const char* kLegendre = "legendre, from the face";          // 2020
+
 }  // namespace
 
 RivalMethods rival_light_methods(const RivalRows& rows) {
@@ -75,21 +80,20 @@ RivalMethods rival_light_methods(const RivalRows& rows) {
                      ", are not in a folder that --rivals names; docs/training.md says how they are made.";
     return std::nullopt;
   };
-  const std::optional<fs::path> gardner = weights_of("gardner 2017", "gardner.safetensors");
-  const std::optional<fs::path> sky = weights_of("hold-geoffroy 2017", "sky.safetensors");
+  const std::optional<fs::path> gardner = weights_of(kGardner, "gardner.safetensors");
+  const std::optional<fs::path> sky = weights_of(kHoldGeoffroy, "sky.safetensors");
   if (gardner || sky) {
     const auto scenes = std::make_shared<Backgrounds>(rows.maps, rows.recipe);
     if (gardner) {
-      found.methods.push_back(
-          of_background("gardner, trained on few maps", std::make_shared<net::LightRegressor>(*gardner), scenes));
+      found.methods.push_back(of_background(kGardner, std::make_shared<net::LightRegressor>(*gardner), scenes));
     }
     if (sky) {
-      found.methods.push_back(of_background("hold-geoffroy, preetham sky",
-                                            std::make_shared<net::SkyRegressor>(*sky, rows.threads), scenes));
+      found.methods.push_back(
+          of_background(kHoldGeoffroy, std::make_shared<net::SkyRegressor>(*sky, rows.threads), scenes));
     }
   }
-  if (const auto legendre = weights_of("legendre 2020", "legendre.safetensors"))
-    found.methods.push_back(of_face("legendre, from the face", std::make_shared<net::LightRegressor>(*legendre)));
+  if (const auto legendre = weights_of(kLegendre, "legendre.safetensors"))
+    found.methods.push_back(of_face(kLegendre, std::make_shared<net::LightRegressor>(*legendre)));
   return found;
 }
 

@@ -62,12 +62,12 @@ RelativeLuminance fit_relative_luminance(const RegionSamples& samples) {
   RelativeLuminance relative = usual_relative_luminance();
   const Observations o = observations_of(samples);
   if (o.count() == 0 || !(o.weight.sum() > 0) || !(samples.luminance.dot(o.weight) > 0)) return relative;
-  const auto none_clipped = Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(o.count(), false);
+  const Eigen::Array<bool, Eigen::Dynamic, 1> unused = o.weight.array() == 0;  // nor for the scale of residuals
   for (int round = 0; round < kTurns; ++round) {
     Eigen::VectorXf shading(o.count());
     for (Eigen::Index i = 0; i < o.count(); ++i)
       shading[i] = samples.luminance[i] / relative[index_of(samples.region[static_cast<std::size_t>(i)])];
-    const SmoothFit fit = fit_smooth_light(o, shading, none_clipped);
+    const SmoothFit fit = fit_smooth_light(o, shading, unused);
     const float least = kLeastLit * shading.dot(o.weight) / o.weight.sum();
     std::array<Offset, kSkinRegionCount> offsets;
     for (Eigen::Index i = 0; i < o.count(); ++i) {

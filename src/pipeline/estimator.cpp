@@ -1,6 +1,7 @@
 #include "faceprobe/core/error.h"
 #include "faceprobe/face/canonical_mesh.h"
 #include "faceprobe/io/data_files.h"
+#include "faceprobe/lighting/face_features.h"
 #include "pipeline/camera_of.h"
 #include "pipeline/estimator_impl.h"
 #include "pipeline/expected_light.h"
@@ -49,7 +50,7 @@ FaceEstimate Estimator::Impl::analyse(const io::Photo& photo, const face::Camera
   out.enough_shown = shown_share(crop, photo.linear.width(), photo.linear.height()) >= options.least_shown;
   read_layers(reader, options, photo.grey, out.enough_shown, out, &watch);
   lighting::Light light = light_of(out.observations, out.enough_shown);
-  if (prior && out.enough_shown) out.sources.prior = PriorSource::kNet;
+  if (prior && out.enough_shown && lighting::shading_level(out.observations) > 0) out.sources.prior = PriorSource::kNet;
   watch.lap("light");
   static_cast<LightResult&>(out) = light_result(std::move(light), options);
   watch.lap("maps and main lights");

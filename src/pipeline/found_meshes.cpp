@@ -52,19 +52,19 @@ MeshCount find_meshes(const std::filesystem::path& folder, const face::FaceFinde
                       const std::function<void(int, int)>& progress) {
   const synth::ShardReader faces(folder);
   const face::CanonicalMesh mesh = face::load_canonical_mesh(io::data_file("canonical-face-model.obj"));
-  const auto shards = samples_by_view(faces);
+  auto shards = samples_by_view(faces);
+  std::erase_if(shards,
+                [&](const auto& shard) { return std::filesystem::exists(folder / synth::mesh_name(shard.first)); });
   MeshCount count;
   int done = 0;
   for (const auto& [shard, views] : shards) {
-    if (!std::filesystem::exists(folder / synth::mesh_name(shard))) {
-      std::vector<synth::FoundMesh> meshes;
-      for (const auto& [view, samples] : views) meshes.push_back(find_mesh(faces, samples, finder, mesh));
-      synth::write_meshes(folder, shard, meshes);
-      count.views += static_cast<int>(meshes.size());
-      count.found += static_cast<int>(std::ranges::count_if(meshes, [](const synth::FoundMesh& found) {
-        return std::ranges::any_of(found.region.values(), [](std::uint8_t region) { return region != 0; });
-      }));
-    }
+    std::vector<synth::FoundMesh> meshes;
+    for (const auto& [view, samples] : views) meshes.push_back(find_mesh(faces, samples, finder, mesh));
+    synth::write_meshes(folder, shard, meshes);
+    count.views += static_cast<int>(meshes.size());
+    count.found += static_cast<int>(std::ranges::count_if(meshes, [](const synth::FoundMesh& found) {
+      return std::ranges::any_of(found.region.values(), [](std::uint8_t region) { return region != 0; });
+    }));
     if (progress) progress(++done, static_cast<int>(shards.size()));
   }
   return count;

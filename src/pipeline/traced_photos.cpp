@@ -100,24 +100,24 @@ TraceCount trace_photos(const std::filesystem::path& folder, const TraceRun& run
   EstimateOptions options = run.options;
   options.threads = 1;
   const FaceReader reader(options);
-  const auto shards = photos_by_shard(faces, run.most);
+  auto shards = photos_by_shard(faces, run.most);
+  std::erase_if(shards,
+                [&](const auto& shard) { return std::filesystem::exists(folder / synth::traced_name(shard.first)); });
   TraceCount count;
   int done = 0;
   for (const auto& [shard, numbers] : shards) {
-    if (!std::filesystem::exists(folder / synth::traced_name(shard))) {
-      std::vector<std::optional<synth::TracedPhoto>> found(numbers.size());
-      parallel_for(static_cast<int>(numbers.size()), run.options.threads, [&](int first, int last) {
-        for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
-          found[i] = trace_photo(faces, numbers[i], reader, options);
-      });
-      std::vector<synth::TracedPhoto> photos;
-      for (std::optional<synth::TracedPhoto>& photo : found) {
-        if (photo) photos.push_back(std::move(*photo));
-      }
-      count.photos += static_cast<int>(numbers.size());
-      count.traced += static_cast<int>(photos.size());
-      if (!photos.empty()) synth::write_traced(folder, shard, photos);
+    std::vector<std::optional<synth::TracedPhoto>> found(numbers.size());
+    parallel_for(static_cast<int>(numbers.size()), run.options.threads, [&](int first, int last) {
+      for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
+        found[i] = trace_photo(faces, numbers[i], reader, options);
+    });
+    std::vector<synth::TracedPhoto> photos;
+    for (std::optional<synth::TracedPhoto>& photo : found) {
+      if (photo) photos.push_back(std::move(*photo));
     }
+    count.photos += static_cast<int>(numbers.size());
+    count.traced += static_cast<int>(photos.size());
+    if (!photos.empty()) synth::write_traced(folder, shard, photos);
     if (progress) progress(++done, static_cast<int>(shards.size()));
   }
   return count;

@@ -42,8 +42,9 @@ Examples read_examples(const std::filesystem::path& folder) {
   const std::int64_t inputs = photos[0].features.size();
   const std::int64_t cells = photos[0].light.rows();
   if (inputs != lighting::kFaceFeatures || cells != lighting::kFeatureCells)
-    throw Error(ExitCode::kInput, "What was read from the photos in " + folder.string() +
-                                      " is of another version. Run `faceprobe trace` again.");
+    throw Error(ExitCode::kInput,
+                "What was read from the photos in " + folder.string() +
+                    " is of another version. Remove its traced-*.safetensors and run `faceprobe trace` again.");
   Examples out{torch::empty({count, inputs}), torch::empty({count, cells, 3})};
   for (std::int64_t i = 0; i < count; ++i) {
     const synth::TracedPhoto& photo = photos[static_cast<std::size_t>(i)];

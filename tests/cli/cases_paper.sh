@@ -29,6 +29,15 @@ case_eval_paper() {
   expect_exit 0 "${arguments[@]}"
   cmp first.json report/report.json || fail "the second time it measures something else"
 
+  # Rows of an earlier report, where its photos were the same.
+  sed 's/"name": "tan"/"name": "somebody"/' first.json >earlier.json
+  expect_exit 0 "${arguments[@]}" --earlier earlier.json
+  grep -q "^| somebody (.*earlier) |" report/report.md || fail "no row from the earlier report"
+  expect_exit 0 "${arguments[@]}" --earlier first.json
+  cmp first.json report/report.json || fail "a report of the same rows changes something"
+  expect_refused 3 "not what faceprobe wrote" "${arguments[@]}" --earlier report/report.csv
+  expect_exit 0 "${arguments[@]}"
+
   # Its figures as a page, from the JSON alone.
   expect_exit 0 eval results report/report.json
   cmp "$work/stdout" report/report.md || fail "the page is another than the report's"

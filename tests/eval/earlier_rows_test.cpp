@@ -15,9 +15,9 @@ PaperReport report_with(std::vector<ReportTable::Row> rows, std::string missing 
 const ReportTable::Row kEmpty{.name = "ambient", .values = {133.4, 100}, .intervals = {std::pair(125.0, 141.0)}};
 
 TEST(EarlierRows, AreAddedWhereACommonRowIsTheSame) {
-  PaperReport now =
-      report_with({{.name = "net", .values = {20, 100}, .ours = true}, kEmpty},
-                  "No row of rival, small: its weights, r.safetensors, are not there. No row of other: why.");
+  PaperReport now = report_with({{.name = "net", .values = {20, 100}, .ours = true}, kEmpty},
+                                "No row of rival, small: its weights, r.safetensors, are not there. No row of other: "
+                                "why. Scenes are not told apart.");
   const PaperReport before = report_with({{.name = "net", .values = {32, 100}, .ours = true},
                                           kEmpty,
                                           {.name = "rival, small", .values = {45, 99}, .note = "1 missing"}});
@@ -27,7 +27,7 @@ TEST(EarlierRows, AreAddedWhereACommonRowIsTheSame) {
   EXPECT_EQ(section.tables[0].rows[0].values[0], 20);  // its own figure stays
   EXPECT_EQ(section.tables[0].rows[2].values[0], 45);
   EXPECT_EQ(section.tables[0].rows[2].note, "1 missing, earlier");
-  EXPECT_EQ(section.missing, "No row of other: why.");
+  EXPECT_EQ(section.missing, "No row of other: why. Scenes are not told apart.");
   EXPECT_NE(section.text.find("earlier version: rival, small."), std::string::npos);
   // Once more changes nothing.
   const PaperReport once = now;
@@ -47,6 +47,35 @@ TEST(EarlierRows, AreNotTakenFromOtherPhotos) {
   EXPECT_TRUE(add_earlier_rows(silent, report_with({{.name = "ambient", .values = {std::nullopt, 0}},
                                                     {.name = "rival", .values = {45, 100}}}))
                   .empty());
+}
+
+TEST(EarlierRows, StayMissingWhereATableDoesNotTakeThem) {
+  const std::string missing = "No row of rival: its weights are not there.";
+  PaperReport now = report_with({kEmpty}, missing);
+  PaperReport before = report_with({kEmpty, {.name = "rival", .values = {45, 100}}});
+  for (PaperReport* report : {&now, &before}) {
+    report->sections[0].tables.push_back(report->sections[0].tables[0]);
+    report->sections[0].tables[1].title = "On other photos";
+  }
+  now.sections[0].tables[1].rows[0].values[0] = 1;
+  EXPECT_FALSE(add_earlier_rows(now, before).empty());
+  EXPECT_EQ(now.sections[0].tables[0].rows.size(), 2U);
+  EXPECT_EQ(now.sections[0].tables[1].rows.size(), 1U);
+  EXPECT_EQ(now.sections[0].missing, missing);
+}
+
+// As table_of(): who answers fewer photos is not the best of them, and means over what all answer hold for one set of methods.
+TEST(EarlierRows, WithMissingPhotosMakeNoColumnComparable) {
+  PaperReport now = report_with({kEmpty});
+  ReportTable& table = now.sections[0].tables[0];
+  table.columns = {"mean", "n", "mean of the 9 all have"};
+  table.better = {Better::kLower, Better::kNeither, Better::kLower};
+  PaperReport before = now;
+  before.sections[0].tables[0].rows.push_back({.name = "rival", .values = {4, 9, 4}, .note = "1 missing"});
+  ASSERT_FALSE(add_earlier_rows(now, before).empty());
+  EXPECT_EQ(table.better[0], Better::kNeither);
+  EXPECT_EQ(table.rows[1].values[0], 4);
+  EXPECT_FALSE(table.rows[1].values[2]);
 }
 
 TEST(EarlierRows, FollowTheColumnsByName) {

@@ -22,6 +22,18 @@ TEST(LightLoss, IsNoughtForTheTruth) {
   const LightLoss::Terms terms = loss.terms(light, light);
   EXPECT_NEAR(terms.diffuse.item<double>(), 1e-3, 1e-6);  // the floor under the root
   EXPECT_NEAR(terms.glossy.item<double>(), 0, 1e-6);
+  EXPECT_NEAR(terms.shape.item<double>(), 1e-3, 1e-6);
+}
+
+TEST(LightLoss, TheShapeDoesNotKnowTheLevel) {
+  const LightLoss loss;
+  const torch::Tensor truth = lamp({0.5F, 0.5F, 0.7F}, 20);
+  const torch::Tensor other = lamp({0.2F, 0.6F, 0.7F}, 12);
+  const LightLoss::Terms once = loss.terms(other, truth);
+  const LightLoss::Terms thrice = loss.terms(3 * other, truth);
+  EXPECT_GT(once.shape.item<double>(), 0.02);
+  EXPECT_NEAR(thrice.shape.item<double>(), once.shape.item<double>(), 1e-5);  // single precision
+  EXPECT_GT(std::abs(thrice.diffuse.item<double>() - once.diffuse.item<double>()), 0.02);
 }
 
 TEST(LightLoss, GrowsWithTheAngle) {
@@ -65,7 +77,7 @@ TEST(LightLoss, ItsGradientIsThatOfFiniteDifferences) {
   const torch::Tensor light = (0.3 * torch::rand({2, lighting::kFeatureCells, 3}) + 0.1).set_requires_grad(true);
   const auto value = [&](const torch::Tensor& x) {
     const LightLoss::Terms terms = loss.terms(x, truth);
-    return terms.diffuse + terms.glossy;
+    return terms.diffuse + terms.glossy + terms.shape;
   };
   value(light).backward();
   const torch::NoGradGuard no_grad;

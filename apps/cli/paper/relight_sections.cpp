@@ -114,10 +114,10 @@ Sections relight_sections(const PaperPlan& plan) {
   sections[0].missing = rivals.missing;
   if (plan.training.empty()) {
     sections[0].missing +=
-        " No rows of Knorr and Kurz and of the mean light: they learn from traced training faces, which --training "
-        "names.";
+        " No row of knorr and kurz: it learns from traced training faces, which --training names. No row of mean light "
+        "of the training data: --training names the faces.";
   } else if (std::ranges::count(scores.table.methods(), "knorr and kurz") == 0) {
-    sections[0].missing += " No row of Knorr and Kurz: the training faces are not traced (`faceprobe trace`).";
+    sections[0].missing += " No row of knorr and kurz: the training faces are not traced (`faceprobe trace`).";
   }
   if (!std::filesystem::exists(scenes))
     sections[0].missing += " Scenes are not told apart: there is no hdri/dev.csv in the data folder.";

@@ -2,12 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 namespace faceprobe::eval {
 namespace {
 
 constexpr const char* kNote = "earlier";
 constexpr double kSame = 1e-12;  // of a value: reports hold all digits, and the same program finds them all again
+constexpr std::string_view kCommon =
+    " all have";  // ends the name of a column of means over what all of its rows answered (common_column())
 
 template <class Items, class Key>
 auto find_by(Items& items, Key key, const std::string& wanted) {
@@ -23,7 +30,7 @@ bool same_value(const std::optional<double>& a, const std::optional<double>& b) 
 std::vector<std::optional<std::size_t>> places_in(const ReportTable& table, const ReportTable& earlier) {
   std::vector<std::optional<std::size_t>> places;
   for (const std::string& column : table.columns) {
-    const auto found = std::ranges::find(earlier.columns, column);
+    const auto found = column.ends_with(kCommon) ? earlier.columns.end() : std::ranges::find(earlier.columns, column);
     places.push_back(found == earlier.columns.end()
                          ? std::nullopt
                          : std::optional(static_cast<std::size_t>(found - earlier.columns.begin())));
@@ -66,18 +73,28 @@ void add_rows(ReportTable& table, const ReportTable& earlier, std::set<std::stri
     ReportTable::Row added = in_columns(row, places);
     if (!std::string_view(added.note).ends_with(kNote))
       added.note += added.note.empty() ? kNote : std::string(", ") + kNote;
+    // Means over fewer photos are not the best of a column, as in table_of().
+    if (added.note.find("missing") != std::string::npos) table.better.assign(table.columns.size(), Better::kNeither);
     taken.insert(added.name);
     table.rows.push_back(std::move(added));
   }
 }
 
-// "No row of NAME: ... " up to the next such sentence.
+// Whether a table of `section` still lacks a row that its earlier one has.
+bool still_missing(const std::string& name, const ReportSection& section, const ReportSection& earlier) {
+  return std::ranges::any_of(section.tables, [&](const ReportTable& table) {
+    const auto old = find_by(earlier.tables, &ReportTable::title, table.title);
+    return old != earlier.tables.end() && find_by(old->rows, &ReportTable::Row::name, name) != old->rows.end() &&
+           find_by(table.rows, &ReportTable::Row::name, name) == table.rows.end();
+  });
+}
+
+// The sentence "No row of NAME: ...".
 void forget_missing(const std::string& name, std::string& missing) {
-  constexpr std::string_view kNoRow = "No row of ";
-  const std::size_t begin = missing.find(std::string(kNoRow) + name + ":");
+  const std::size_t begin = missing.find("No row of " + name + ":");
   if (begin == std::string::npos) return;
-  const std::size_t next = missing.find(kNoRow, begin + kNoRow.size());
-  missing.erase(begin, next == std::string::npos ? next : next - begin);
+  const std::size_t end = missing.find(". ", begin);
+  missing.erase(begin, end == std::string::npos ? end : end + 2 - begin);
   while (!missing.empty() && missing.back() == ' ') missing.pop_back();
 }
 
@@ -100,7 +117,9 @@ std::set<std::string> add_earlier_rows(PaperReport& report, const PaperReport& e
       if (old != before->tables.end()) add_rows(table, *old, taken);
     }
     if (taken.empty()) continue;
-    for (const std::string& name : taken) forget_missing(name, section.missing);
+    for (const std::string& name : taken) {
+      if (!still_missing(name, section, *before)) forget_missing(name, section.missing);
+    }
     section.text +=
         "\n\nRows marked as earlier were measured on the same photos by an earlier version: " + listed(taken) + ".";
     all.insert(taken.begin(), taken.end());
