@@ -21,6 +21,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace faceprobe::cli {
 
@@ -60,6 +61,7 @@ void require_data(const PaperPlan& plan) {
 
 // What was measured, without anybody's folders.
 std::string made_with(const PaperPlan& plan) {
+  if (!plan.parts.empty()) return fmt::format("Faceprobe {}, parts {}.", kVersion, fmt::join(plan.parts, ", "));
   const auto of = [](const std::filesystem::path& faces, int wanted) {
     return std::min(wanted, synth::ShardReader(faces).sample_count());
   };
@@ -79,13 +81,17 @@ int run(PaperPlan plan) {
   make_paper_faces(plan);
   eval::PaperReport report{.title = "Light from faces: the evaluation", .made_with = made_with(plan)};
   for (std::size_t i = 0; i < kParts.size(); ++i) {
+    if (!plan.measures(kParts[i].name)) continue;
     plan.progress = part_progress(fmt::format("{}, part {} of {}", kParts[i].name, i + 1, kParts.size()));
     Sections sections = cached_part(plan, key_of(plan, kParts[i].rivals), kParts[i].name, kParts[i].measure);
     std::move(sections.begin(), sections.end(), std::back_inserter(report.sections));
     spdlog::info("part {} of {}, {}: done", i + 1, kParts.size(), kParts[i].name);
   }
   if (!plan.earlier.empty()) {
+    if (!plan.parts.empty()) report.made_with += " What else there is: " + earlier.made_with;
     const std::set<std::string> taken = eval::add_earlier_rows(report, earlier);
+    for (const std::string& title : eval::add_earlier_sections(report, earlier))
+      spdlog::info("'{}' is from {}", title, plan.earlier.string());
     if (taken.empty()) {
       spdlog::warn("no row could be taken from {}: it has none that is missing here, or is of other photos",
                    plan.earlier.string());
@@ -126,11 +132,17 @@ CLI::App* add_eval_paper(CLI::App& eval, Action& action) {
       ->add_option("--rivals", plan->rivals,
                    "folder of weights of rival networks, such as mscr.safetensors; default: no such rows")
       ->type_name("DIR");
+  std::vector<std::string> parts;
+  for (const Part& part : kParts) parts.emplace_back(part.name);
+  command->add_option("--parts", plan->parts, "measure these parts alone, separated by commas; default: all")
+      ->delimiter(',')
+      ->check(CLI::IsMember(parts))
+      ->type_name("PART,...");
   command
       ->add_option(
           "--earlier", plan->earlier,
-          "report.json of an earlier run on the same photos, such as docs/results.json, for rows that this run "
-          "lacks; default: no such rows")
+          "report.json of an earlier run on the same photos, such as docs/results.json, for rows and parts that "
+          "this run lacks; default: none")
       ->type_name("FILE");
   command->add_option("--threads", plan->threads, "threads; 0 = all processors")->capture_default_str();
   command->footer(

@@ -36,6 +36,11 @@ case_eval_paper() {
   expect_exit 0 "${arguments[@]}" --earlier first.json
   cmp first.json report/report.json || fail "a report of the same rows changes something"
   expect_refused 3 "not what faceprobe wrote" "${arguments[@]}" --earlier report/report.csv
+  # One part, and the rest from before.
+  expect_exit 0 eval paper --data . --quick --faces faces --parts highlights --earlier first.json -o part
+  grep -q "These figures are an earlier version's" part/report.md || fail "parts that were not measured are not named"
+  grep -q "^## Lamps from several faces" part/report.md || fail "a part of the earlier report is lost"
+  expect_refused 2 "--parts" "${arguments[@]}" --parts everything
   expect_exit 0 "${arguments[@]}"
 
   # Its figures as a page, from the JSON alone.

@@ -92,5 +92,22 @@ TEST(EarlierRows, FollowTheColumnsByName) {
   EXPECT_EQ(rival.intervals[2], std::pair(40.0, 50.0));
 }
 
+TEST(EarlierSections, KeepTheirOrderAndSayWhatTheyAre) {
+  PaperReport now{.title = "Report", .sections = {{.id = "b", .title = "B", .text = "New."}, {.id = "d", .title = "D"}}};
+  const PaperReport before{
+      .title = "Report",
+      .sections = {{.id = "a", .title = "A", .text = "Old."}, {.id = "b", .title = "B"}, {.id = "c", .title = "C"}}};
+  EXPECT_EQ(add_earlier_sections(now, before), (std::vector<std::string>{"A", "C"}));
+  ASSERT_EQ(now.sections.size(), 4U);
+  EXPECT_EQ(now.sections[0].text, "Old.\n\nThese figures are an earlier version's.");
+  EXPECT_EQ(now.sections[1].text, "New.");
+  EXPECT_EQ(now.sections[2].id, "c");
+  EXPECT_EQ(now.sections[3].id, "d");
+  // Taken twice, said once.
+  PaperReport again{.title = "Report", .sections = {{.id = "b", .title = "B"}}};
+  add_earlier_sections(again, now);
+  EXPECT_EQ(again.sections[0].text, now.sections[0].text);
+}
+
 }  // namespace
 }  // namespace faceprobe::eval

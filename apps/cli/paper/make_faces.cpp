@@ -36,13 +36,15 @@ void make_paper_faces(PaperPlan& plan) {
     const char* name;
     synth::Recipe recipe;
     bool meshes;
+    bool needed;
   };
-  const std::vector<Set> sets = {{&plan.faces, "faces", faces_recipe(plan.quick), true},
-                                 {&plan.light, "light", light_recipe(plan.quick), true},
-                                 {&plan.groups, "groups", groups_recipe(plan.quick), false}};
+  const std::vector<Set> sets = {
+      {&plan.faces, "faces", faces_recipe(plan.quick), true, plan.measures("highlights")},
+      {&plan.light, "light", light_recipe(plan.quick), true, plan.measures("relighting") || plan.measures("ablations")},
+      {&plan.groups, "groups", groups_recipe(plan.quick), false, plan.measures("triangulation")}};
   synth::Assets assets;
   for (const Set& set : sets) {
-    if (!set.folder->empty()) continue;
+    if (!set.needed || !set.folder->empty()) continue;
     const std::filesystem::path folder = plan.output / (plan.quick ? "faces_quick" : "faces") / set.name;
     if (assets.heads.empty()) {
       assets = load_synth_assets({.heads = {(plan.data / "faces" / "ict_facekit").string()},

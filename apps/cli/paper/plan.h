@@ -3,9 +3,11 @@
 
 #include "faceprobe/eval/paper_report.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace faceprobe::cli {
@@ -21,12 +23,14 @@ struct PaperPlan {
   std::filesystem::path training;
   // Weights of the rivals that are networks, trained on the same data (docs/training.md), NAME.safetensors each; empty = no such rows.
   std::filesystem::path rivals;
-  std::filesystem::path
-      earlier;  // report.json of an earlier run, for rows that this one lacks; empty = none (eval/earlier_rows.h)
+  std::vector<std::string> parts;  // measured now; empty = all
+  // report.json of an earlier run, for rows and parts that this one lacks (eval/earlier_rows.h); empty = none.
+  std::filesystem::path earlier;
   bool quick = false;  // few photos, for a look in minutes
   int threads = 0;
   std::function<void(int done, int total)> progress = {};  // within the part at hand
 
+  bool measures(std::string_view part) const { return parts.empty() || std::ranges::find(parts, part) != parts.end(); }
   // Photos of each part.
   int highlight_photos() const { return quick ? 20 : 100; }
   int light_photos() const { return quick ? 8 : 100; }

@@ -1,5 +1,5 @@
 #pragma once
-// Rows that a report lacks, from an earlier report of the same measurement. Rivals whose weights take hours to train need not be trained again by
+// Rows and sections that a report lacks, from an earlier report of the same measurement. Rivals whose weights take hours to train need not be trained again by
 // everybody who measures something else on the same photos.
 //
 //   const std::set<std::string> taken = add_earlier_rows(report, report_from_json(io::read_text("docs/results.json", kMostBytes)));
@@ -11,6 +11,7 @@
 
 #include <set>
 #include <string>
+#include <vector>
 
 namespace faceprobe::eval {
 
@@ -18,5 +19,9 @@ namespace faceprobe::eval {
 // columns that the table does not have are dropped, those of columns that the row does not have are missing. Sections say below their text which
 // rows came so, and no longer that these are missing. Plots stay as they are. Returns the names of the rows taken.
 std::set<std::string> add_earlier_rows(PaperReport& report, const PaperReport& earlier);
+
+// Adds the sections of `earlier` that `report` does not have, with a sentence that says so; sections are then in the order of `earlier`, and those
+// that only `report` has at the end. Returns the titles of the sections added.
+std::vector<std::string> add_earlier_sections(PaperReport& report, const PaperReport& earlier);
 
 }  // namespace faceprobe::eval

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -125,6 +126,27 @@ std::set<std::string> add_earlier_rows(PaperReport& report, const PaperReport& e
     all.insert(taken.begin(), taken.end());
   }
   return all;
+}
+
+std::vector<std::string> add_earlier_sections(PaperReport& report, const PaperReport& earlier) {
+  constexpr std::string_view kSentence = "These figures are an earlier version's.";
+  std::vector<std::string> added;
+  std::vector<ReportSection> ordered;
+  for (const ReportSection& before : earlier.sections) {
+    const auto now = find_by(report.sections, &ReportSection::id, before.id);
+    if (now != report.sections.end()) {
+      ordered.push_back(std::move(*now));
+      report.sections.erase(now);
+      continue;
+    }
+    ordered.push_back(before);
+    std::string& text = ordered.back().text;
+    if (!text.ends_with(kSentence)) text.append(text.empty() ? "" : "\n\n").append(kSentence);
+    added.push_back(before.title);
+  }
+  std::move(report.sections.begin(), report.sections.end(), std::back_inserter(ordered));
+  report.sections = std::move(ordered);
+  return added;
 }
 
 }  // namespace faceprobe::eval
