@@ -23,7 +23,7 @@ struct RegionSamples {
   std::vector<Region> region;  // of the ten
 };
 
-// What skins are like: medians of the training skins (measured on the albedo of synthetic faces, so on textures of 43 people).
+// What skins are like: medians of the training skins (measured on the albedo of synthetic faces, so on textures of 42 people).
 RelativeLuminance usual_relative_luminance();
 // The prior's where a region has too few samples that are lit.
 RelativeLuminance fit_relative_luminance(const RegionSamples& samples);

@@ -68,7 +68,7 @@ TEST(FaceFeatures, AMirroredFaceHasMirroredFeatures) {
 // Cells are 15 degrees wide, and what is found is smooth.
 TEST(FaceFeatures, EndWithTheLightThatTheSolverFinds) {
   const Eigen::Vector3f towards = Eigen::Vector3f(0.5F, 0.4F, 1).normalized();
-  const Eigen::VectorXf features = face_features(lit_face(towards));
+  const Eigen::VectorXf features = face_features(lit_face({towards.x(), towards.y(), towards.z()}));
   using Solved = Eigen::Matrix<float, kFeatureCells, 3, Eigen::RowMajor>;
   const Solved solved(features.data() + kCellFeatures);
   EXPECT_GE(solved.minCoeff(), 0);
