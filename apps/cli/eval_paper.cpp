@@ -50,7 +50,10 @@ std::function<void(int, int)> part_progress(const std::string& part) {
 
 // What synthetic faces are made of; nothing where they are all there.
 void require_data(const PaperPlan& plan) {
-  if (!plan.faces.empty() && !plan.light.empty() && !plan.groups.empty()) return;
+  const bool all_there = (!plan.faces.empty() || !plan.measures("highlights")) &&
+                         (!plan.light.empty() || !(plan.measures("relighting") || plan.measures("ablations"))) &&
+                         (!plan.groups.empty() || !plan.measures("triangulation"));
+  if (all_there) return;
   for (const char* needed : {"faces/ict_facekit", "hdri/dev"}) {
     if (!std::filesystem::is_directory(plan.data / needed)) {
       throw Error(ExitCode::kInput, "There is no " + (plan.data / needed).string() +

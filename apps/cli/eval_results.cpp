@@ -1,5 +1,6 @@
 #include "eval_results.h"
 
+#include "faceprobe/eval/earlier_rows.h"
 #include "faceprobe/io/data_files.h"
 #include "paper/headlines.h"
 
@@ -15,12 +16,21 @@ namespace {
 
 struct ResultsOptions {
   std::filesystem::path report;
+  std::filesystem::path earlier;
   bool headlines = false;
+  bool json = false;
 };
 
 int run(const ResultsOptions& options) {
-  const eval::PaperReport report = read_report(options.report);
-  fmt::print("{}", options.headlines ? headlines(report) : eval::report_markdown(report));
+  eval::PaperReport report = read_report(options.report);
+  if (!options.earlier.empty()) {
+    const eval::PaperReport earlier = read_report(options.earlier);
+    eval::add_earlier_rows(report, earlier);
+    eval::add_earlier_sections(report, earlier);
+  }
+  fmt::print("{}", options.headlines ? headlines(report)
+                   : options.json    ? eval::report_json(report)
+                                     : eval::report_markdown(report));
   return 0;
 }
 
@@ -38,6 +48,12 @@ CLI::App* add_eval_results(CLI::App& eval, Action& action) {
       ->type_name("FILE")
       ->required();
   command->add_flag("--headlines", options->headlines, "the few figures that a first page quotes, instead of all");
+  command
+      ->add_option(
+          "--earlier", options->earlier,
+          "report.json of an earlier run on the same photos, for rows and parts that are not in REPORT; default: none")
+      ->type_name("FILE");
+  command->add_flag("--json", options->json, "the report as JSON, what came from the earlier one included");
   command->footer("Example:\n  faceprobe eval results report/report.json > results.md");
   command->callback([options, &action] { action = [options] { return run(*options); }; });
   return command;

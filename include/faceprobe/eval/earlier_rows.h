@@ -5,7 +5,7 @@
 //   const std::set<std::string> taken = add_earlier_rows(report, report_from_json(io::read_text("docs/results.json", kMostBytes)));
 //
 // Not for other photos: that they are the same is not taken on trust. A table takes rows only where a row that both reports have is the same to
-// twelve digits, such as what an empty answer scores.
+// four digits, such as what an empty answer scores.
 
 #include "faceprobe/eval/paper_report.h"
 

@@ -13,7 +13,8 @@ namespace faceprobe::eval {
 namespace {
 
 constexpr const char* kNote = "earlier";
-constexpr double kSame = 1e-12;  // of a value: reports hold all digits, and the same program finds them all again
+// Of a value. The same faces, made and measured on another processor, differ by 1.5e-5 at most in 17 tables; other faces by tenths.
+constexpr double kSame = 1e-4;
 constexpr std::string_view kCommon =
     " all have";  // ends the name of a column of means over what all of its rows answered (common_column())
 
