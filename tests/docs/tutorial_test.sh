@@ -48,7 +48,7 @@ missing() {
     need=${need#needs=}
     command -v "${need%%:*}" >/dev/null || { echo "${need%%:*}"; return; }
     # Some systems have another program of this name.
-    [ "$need" != convert ] || convert -version 2>/dev/null | grep -q '^Version: ImageMagick' || { echo "ImageMagick's convert"; return; }
+    [ "$need" != convert ] || [[ $(convert -version 2>/dev/null) == *ImageMagick* ]] || { echo "ImageMagick's convert"; return; }
     if [ "$need" != "${need%%:*}" ]; then
       "${need%%:*}" -c "import ${need#*:}" 2>/dev/null || { echo "the module ${need#*:} of ${need%%:*}"; return; }
     fi
