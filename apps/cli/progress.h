@@ -37,7 +37,7 @@ class Progress {
       return;
     }
     const double now = seconds();
-    if (now < shown_s_ + (terminal_ ? kOnTerminal_s : kInLog_s)) return;
+    if (now < shown_s_ + (terminal_ ? kOnTerminalSeconds : kInLogSeconds)) return;
     shown_s_ = now;
     if (terminal_) {
       fmt::print(stderr, "\r\033[K{}{}", text, left(done, total));
@@ -56,8 +56,8 @@ class Progress {
   double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
 
  private:
-  static constexpr double kOnTerminal_s = 0.2;
-  static constexpr double kInLog_s = 30;
+  static constexpr double kOnTerminalSeconds = 0.2;
+  static constexpr double kInLogSeconds = 30;
 
   std::string left(double done, double total) const {
     if (!(done > begin_)) return {};
