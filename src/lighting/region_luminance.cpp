@@ -13,7 +13,7 @@ struct Prior {
   double deviation;  // standard deviation of its logarithm from person to person
 };
 
-// In the order of Region. Lips and brows vary most, and their pixels are never used to find the light.
+// ESTIMATES, as the header says. In the order of Region. Lips and brows vary most, and their pixels are never used to find the light.
 constexpr std::array<Prior, kSkinRegionCount> kPriors = {{{1.01, 0.07},
                                                           {0.95, 0.06},
                                                           {1.00, 0.00},

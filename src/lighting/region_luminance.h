@@ -1,6 +1,6 @@
 #pragma once
 // Internal: how light each region's skin is beside the cheeks', told from shading. A beard's shadow on chin, jaw and upper lip is a darker
-// albedo; taken for shading it is light from above, by some 15 degrees on the faces of Yale B.
+// albedo; taken for shading it is light from above.
 //
 //   luminance_i = relative(region_i) * (ambient + max(0, N_i . l)),    log relative(r) ~ N(mean_r, deviation_r)
 //
@@ -23,7 +23,7 @@ struct RegionSamples {
   std::vector<Region> region;  // of the ten
 };
 
-// What skins are like: medians of the training skins (measured on the albedo of synthetic faces, so on textures of 42 people).
+// What skins are like: ESTIMATES, medians over the albedo of synthetic faces of the training split, so of textures of 42 people.
 RelativeLuminance usual_relative_luminance();
 // The prior's where a region has too few samples that are lit.
 RelativeLuminance fit_relative_luminance(const RegionSamples& samples);

@@ -41,8 +41,8 @@ std::string to_json(const LightConfig& config);
 // Means over examples.
 struct LightErrors {
   double diffuse = 0;  // root mean square error of a white ball's front over its brightest point
-  double shape =
-      0;  // the same of each picture over its own brightest point: no level counts, as in the relighting benchmark
+  // The same of each picture over its own brightest point: no level counts, as in the relighting benchmark.
+  double shape = 0;
   double glossy = 0;  // mean absolute error of the logarithm of the light seen in a rough mirror ball, all around
 };
 
