@@ -68,6 +68,11 @@ void add_eval(CLI::App& program, Action& action) {
       ->type_name("DIR");
   command->add_option("--rows", options->rows, "photos in that picture")->capture_default_str()->check(CLI::Range(1, 200));
   command
+      ->add_option("--head", options->head,
+                   "for geometry: head model whose fit to the landmarks is a row, as --geometry 3dmm of estimate; "
+                   "default: no such row")
+      ->type_name("PATH");
+  command
       ->add_option("--object", options->object,
                    "for relight and cases, an OBJ file to put in the light, default: a sphere; for insert, a shape or "
                    "a model file, default: spheres")

@@ -3,6 +3,7 @@
 #include "faceprobe/io/atomic_file.h"
 #include "faceprobe/io/picture_file.h"
 #include "faceprobe/net/face_net.h"
+#include "one_head.h"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -116,6 +117,8 @@ int eval_geometry(const EvalOptions& options) {
   auto finder = std::make_shared<face::FaceFinder>(
       face::FinderOptions{.min_face_px = face::kSmallFacePx, .threads = options.threads});
   std::vector<eval::GeometryMethod> methods = {eval::mesh_method(finder)};
+  if (!options.head.empty())
+    methods.push_back(eval::surface_method("3dmm", finder, surface_of_head(options.head, options.threads)));
   for (const std::string& weights : options.weights) methods.push_back(network(weights, options.threads));
   const eval::GeometryScores scores =
       eval::measure_geometry(faces, methods, {.samples = options.samples, .progress = eval_progress()});

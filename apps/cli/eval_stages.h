@@ -20,6 +20,7 @@ struct EvalOptions {
   int rows = 12;  // of pictures
   int samples = 100;
   int threads = 0;
+  std::string head;  // of the stage geometry: a head model to fit; empty = no such row
   // Of the stages relight and insert.
   std::string object;    // OBJ file; empty = a sphere. Of insert: a shape's name or a file
   std::string scenes;    // table of the maps' scenes; empty = not told apart

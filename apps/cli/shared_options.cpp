@@ -1,6 +1,9 @@
 #include "shared_options.h"
 
 #include "faceprobe/core/error.h"
+#ifdef FACEPROBE_HAS_SYNTH
+#include "one_head.h"
+#endif
 
 #include <charconv>
 #include <cmath>
@@ -26,6 +29,26 @@ Choice one_of(const std::string& text, const char* option, const char* first, Ch
   if (text == first) return first_choice;
   if (text == second) return second_choice;
   throw Error(ExitCode::kUsage, std::string(option) + " takes " + first + " or " + second + ", found '" + text + "'.");
+}
+
+void choose_geometry(const SharedOptions& options, pipeline::EstimateOptions& out) {
+  const bool fitted = options.geometry == "3dmm";
+  if (fitted == options.head.empty()) {
+    throw Error(ExitCode::kUsage, fitted ? "--geometry 3dmm fits a head model; name it with --head PATH."
+                                         : "--head is the model that --geometry 3dmm fits; give that too.");
+  }
+  if (!fitted) {
+    if (options.geometry != "net" && options.geometry != "mesh")
+      throw Error(ExitCode::kUsage, "--geometry takes net, mesh or 3dmm, found '" + options.geometry + "'.");
+    out.normals = options.geometry == "net" ? pipeline::NormalSource::kNet : pipeline::NormalSource::kMesh;
+    return;
+  }
+#ifdef FACEPROBE_HAS_SYNTH
+  out.normals = pipeline::NormalSource::kFit;
+  out.surface_fit = surface_of_head(options.head, options.threads);
+#else
+  throw Error(ExitCode::kUsage, "--geometry 3dmm is not in this program: it was built without head models.");
+#endif
 }
 
 }  // namespace
@@ -67,9 +90,15 @@ void add_solver_options(CLI::App& command, SharedOptions& options) {
   command.add_option("--solver", options.solver, "what finds the light: transport, or paper (the published scheme)")
       ->type_name("{transport,paper}")
       ->capture_default_str();
-  command.add_option("--geometry", options.geometry, "where normals come from: net (trained), or mesh")
-      ->type_name("{net,mesh}")
+  command
+      .add_option("--geometry", options.geometry,
+                  "where normals come from: net (trained), mesh, or 3dmm (the head model of --head, fitted)")
+      ->type_name("{net,mesh,3dmm}")
       ->capture_default_str();
+  command
+      .add_option("--head", options.head,
+                  "head model for --geometry 3dmm: an ICT-FaceKit folder, a Basel file, or an OBJ with 68 landmarks")
+      ->type_name("PATH");
   command
       .add_option("--shading", options.shading,
                   "what splits the diffuse layer: net (trained), or regions (one albedo a region)")
@@ -145,8 +174,7 @@ pipeline::EstimateOptions estimate_options(const SharedOptions& options) {
     if (!options.weights.empty())
       throw Error(ExitCode::kUsage, "--weights are the network's; --separator " + options.separator + " takes none.");
   }
-  out.normals = one_of(options.geometry, "--geometry", "net", pipeline::NormalSource::kNet, "mesh",
-                       pipeline::NormalSource::kMesh);
+  choose_geometry(options, out);
   out.shading = one_of(options.shading, "--shading", "net", pipeline::ShadingSource::kNet, "regions",
                        pipeline::ShadingSource::kRegions);
   out.prior =

@@ -18,6 +18,7 @@ struct SharedOptions {
   std::string solver{lighting::solver_name(pipeline::EstimateOptions{}.solve.solver)};
   std::string landmarks;
   std::string geometry = "net";
+  std::string head;  // of geometry "3dmm"
   std::string shading = "net";
   std::string prior = "net";
   std::optional<double> focal_px;

@@ -1,10 +1,10 @@
 #include "commands.h"
-#include "faceprobe/assets/heads.h"
 #include "faceprobe/core/error.h"
 #include "faceprobe/io/atomic_file.h"
 #include "faceprobe/io/picture_file.h"
 #include "faceprobe/pipeline/unwrap.h"
 #include "json_line.h"
+#include "one_head.h"
 #include "shared_options.h"
 
 #include <spdlog/spdlog.h>
@@ -25,15 +25,6 @@ struct Options {
   bool json = false;
   pipeline::UnwrapOptions unwrap;
 };
-
-synth::HeadModel load_one_head(const std::string& path) {
-  std::vector<synth::HeadModel> models = assets::load_heads(path);
-  if (models.size() != 1) {
-    throw Error(ExitCode::kUsage, path + " holds " + std::to_string(models.size()) +
-                                      " head models; a texture is made for one. Name its folder or file.");
-  }
-  return std::move(models.front());
-}
 
 // Where one of several textures goes: OUTPUT/NAME.png, or OUTPUT itself when that is a picture's name.
 std::filesystem::path texture_path(const Options& options, const std::string& input) {

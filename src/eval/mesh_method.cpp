@@ -3,13 +3,19 @@
 #include "faceprobe/io/data_files.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace faceprobe::eval {
 
 GeometryMethod mesh_method(std::shared_ptr<const face::FaceFinder> finder) {
+  return surface_method("mesh", std::move(finder), {});
+}
+
+GeometryMethod surface_method(std::string name, std::shared_ptr<const face::FaceFinder> finder, SurfaceChange change) {
   auto mesh =
       std::make_shared<const face::CanonicalMesh>(face::load_canonical_mesh(io::data_file("canonical-face-model.obj")));
-  return {"mesh", [finder = std::move(finder), mesh](const PhotoInput& input) -> GeometryEstimate {
+  return {std::move(name),
+          [finder = std::move(finder), mesh, change = std::move(change)](const PhotoInput& input) -> GeometryEstimate {
             const std::vector<face::Face> found = finder->find(input.linear, input.camera);
             if (found.empty()) return {};
             const auto largest = std::max_element(found.begin(), found.end(), [](const auto& a, const auto& b) {
@@ -18,6 +24,7 @@ GeometryMethod mesh_method(std::shared_ptr<const face::FaceFinder> finder) {
             const face::Crop whole{
                 .x_px = 0, .y_px = 0, .scale = 1, .width = input.linear.width(), .height = input.linear.height()};
             face::FaceGeometry geometry = face::rasterize(*largest, input.camera, *mesh, whole);
+            if (change) change(*largest, input.camera, geometry);
             return {std::move(geometry.normal_cam), {}, std::move(geometry.region)};
           }};
 }

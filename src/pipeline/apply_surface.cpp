@@ -12,10 +12,15 @@ void apply_normals(const Surface& surface, face::FaceGeometry& geometry) {
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       if (geometry.region(x, y) == 0) continue;
-      geometry.region(x, y) = surface.region(x, y);
       Eigen::Map<Eigen::Vector3f>(geometry.normal_cam.pixel(x, y)) =
           turn * Eigen::Map<const Eigen::Vector3f>(surface.normal_cam.pixel(x, y));
     }
+  }
+}
+
+void apply_regions(const Surface& surface, face::FaceGeometry& geometry) {
+  for (std::size_t i = 0; i < geometry.region.pixel_count(); ++i) {
+    if (geometry.region.data()[i] != 0) geometry.region.data()[i] = surface.region.data()[i];
   }
 }
 

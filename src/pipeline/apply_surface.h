@@ -5,9 +5,10 @@
 
 namespace faceprobe::pipeline {
 
-// Where the mesh covers the face: the network's normals, their errors, and its regions, so that hair, glasses and hands before the face
-// are no skin.
+// Where the mesh covers the face: the network's normals and their errors.
 void apply_normals(const Surface& surface, face::FaceGeometry& geometry);
+// There too: the network's regions, so that hair, glasses and hands before the face are no skin.
+void apply_regions(const Surface& surface, face::FaceGeometry& geometry);
 
 struct AlbedoShading {
   Image albedo;                  // H x W x 3

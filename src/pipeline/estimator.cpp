@@ -48,7 +48,7 @@ FaceEstimate Estimator::Impl::analyse(const io::Photo& photo, const face::Camera
   watch.lap("geometry");
 
   out.enough_shown = shown_share(crop, photo.linear.width(), photo.linear.height()) >= options.least_shown;
-  read_layers(reader, options, photo.grey, out.enough_shown, out, &watch);
+  read_layers(reader, options, camera, photo.grey, out.enough_shown, out, &watch);
   lighting::Light light = light_of(out.observations, out.enough_shown);
   if (prior && out.enough_shown && lighting::shading_level(out.observations) > 0) out.sources.prior = PriorSource::kNet;
   watch.lap("light");

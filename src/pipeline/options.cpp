@@ -35,6 +35,8 @@ std::string EstimateOptions::validate() const {
   if (!(least_shown >= 0 && least_shown <= 1))
     return "least_shown must be from 0 to 1, found " + std::to_string(least_shown) + ".";
   if (sh_order < 0 || sh_order > 10) return "sh_order must be from 0 to 10, found " + std::to_string(sh_order) + ".";
+  if (normals == NormalSource::kFit && !surface_fit)
+    return "Normals of a fitted head model need the model; set surface_fit, such as pipeline::head_geometry().";
   if (landmarks_px && landmarks_px->rows() != 5 && landmarks_px->rows() != 68) {
     return "Give 5 or 68 landmarks, found " + std::to_string(landmarks_px->rows()) + ".";
   }

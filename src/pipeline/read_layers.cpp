@@ -39,14 +39,20 @@ void lap(Stopwatch* watch, const char* stage) {
 
 }  // namespace
 
-void read_layers(const FaceReader& reader, const EstimateOptions& options, bool grey, bool enough, FaceEstimate& face,
-                 Stopwatch* watch) {
+void read_layers(const FaceReader& reader, const EstimateOptions& options, const face::Camera& camera, bool grey,
+                 bool enough, FaceEstimate& face, Stopwatch* watch) {
   Reading reading = reader.read(face.picture, face.clipped, skin_regions(face.geometry.region), face.geometry, enough);
   face.layers = std::move(reading.layers);
   face.sources.classical = reading.classical;
-  if (reading.surface && options.normals == NormalSource::kNet) {
+  if (options.normals == NormalSource::kFit) {  // only now: the network has learnt from the mesh's normals
+    options.surface_fit(face.face, camera, face.geometry);
+    face.sources.normals = NormalSource::kFit;
+  } else if (reading.surface && options.normals == NormalSource::kNet) {
     apply_normals(*reading.surface, face.geometry);
     face.sources.normals = NormalSource::kNet;
+  }
+  if (reading.surface && options.normals != NormalSource::kMesh) {
+    apply_regions(*reading.surface, face.geometry);
     keep_on_skin(face.geometry.region, face.layers);
   }
   lap(watch, "highlights and normals");

@@ -59,7 +59,13 @@ std::string_view focal_source_name(FocalSource source) {
   }
 }
 
-const char* normals_name(NormalSource source) { return source == NormalSource::kNet ? "net" : "mesh"; }
+const char* normals_name(NormalSource source) {
+  switch (source) {
+    case NormalSource::kNet: return "net";
+    case NormalSource::kFit: return "3dmm";
+    default: return "mesh";
+  }
+}
 const char* shading_name(ShadingSource source) { return source == ShadingSource::kNet ? "net" : "regions"; }
 const char* prior_name(PriorSource source) { return source == PriorSource::kNet ? "net" : "smooth"; }
 
@@ -113,16 +119,18 @@ std::string report_json(const Estimate& estimate, const io::Photo& photo, const 
   report["camera"] = {{"focal_px", estimate.camera.focal_px},
                       {"focal_source", focal_source_name(estimate.focal_source)},
                       {"centre_px", {estimate.camera.centre_x_px, estimate.camera.centre_y_px}}};
-  report["options"] = {{"separator", options.separator_name()},
-                       {"geometry", normals_name(options.classical ? NormalSource::kMesh : options.normals)},
-                       {"shading", shading_name(options.classical ? ShadingSource::kRegions : options.shading)},
-                       {"solver", lighting::solver_name(options.solve.solver)},
-                       {"prior", prior_name(options.asks_prior() ? PriorSource::kNet : PriorSource::kSmooth)},
-                       {"iterations", options.solve.iterations},
-                       {"nside", options.solve.nside},
-                       {"map_size_px", {options.map_width, options.map_width / 2}},
-                       {"layer_px", options.layer_px},
-                       {"deterministic", options.deterministic}};
+  report["options"] = {
+      {"separator", options.separator_name()},
+      {"geometry",
+       normals_name(options.classical && options.normals == NormalSource::kNet ? NormalSource::kMesh : options.normals)},
+      {"shading", shading_name(options.classical ? ShadingSource::kRegions : options.shading)},
+      {"solver", lighting::solver_name(options.solve.solver)},
+      {"prior", prior_name(options.asks_prior() ? PriorSource::kNet : PriorSource::kSmooth)},
+      {"iterations", options.solve.iterations},
+      {"nside", options.solve.nside},
+      {"map_size_px", {options.map_width, options.map_width / 2}},
+      {"layer_px", options.layer_px},
+      {"deterministic", options.deterministic}};
   report["largest_face"] = estimate.largest;
   report["faces"] = Json::array();
   for (const FaceEstimate& face : estimate.faces) report["faces"].push_back(face_json(face));

@@ -36,8 +36,14 @@ std::optional<Window> crop_of(const ByteImage& region) {
                 static_cast<int>(std::ceil(box->bottom + down) - y0)};
 }
 
+face::Camera camera_of(const synth::ViewLayers& view) {
+  return {.focal_px = static_cast<double>(view.focal_px),
+          .centre_x_px = static_cast<double>(view.centre_px.x()),
+          .centre_y_px = static_cast<double>(view.centre_px.y())};
+}
+
 // The photo in its crop, as Estimator has it; the surface's place in space, which only shadows need, is left out.
-FaceEstimate face_of(const synth::Sample& sample, const synth::ViewLayers& view, const synth::FoundMesh& mesh,
+FaceEstimate face_of(const synth::Sample& sample, const face::Camera& camera, const synth::FoundMesh& mesh,
                      const Window& window) {
   FaceEstimate face;
   face.picture = resampled(synth::photo_layers(sample).linear, window);
@@ -47,9 +53,6 @@ FaceEstimate face_of(const synth::Sample& sample, const synth::ViewLayers& view,
   geometry.normal_cam = resampled(mesh.normal_cam, window);
   geometry.region = resampled(mesh.region, window, 0);
   geometry.position_cam_m = geometry.view_cam = Image(window.width, window.height, 3);
-  const face::Camera camera{.focal_px = static_cast<double>(view.focal_px),
-                            .centre_x_px = static_cast<double>(view.centre_px.x()),
-                            .centre_y_px = static_cast<double>(view.centre_px.y())};
   for (int y = 0; y < window.height; ++y) {
     for (int x = 0; x < window.width; ++x) {
       Eigen::Map<Eigen::Vector3f>(geometry.view_cam.pixel(x, y)) =
@@ -66,8 +69,9 @@ std::optional<synth::TracedPhoto> trace_photo(const synth::ShardReader& faces, i
   if (!window) return std::nullopt;
   const synth::Sample sample = faces.copy_sample(number);
   if (!sample.lamps.empty()) return std::nullopt;  // a group's room: no one map lights it
-  FaceEstimate face = face_of(sample, faces.copy_view(number), mesh, *window);
-  read_layers(reader, options, false, true, face);
+  const face::Camera camera = camera_of(faces.copy_view(number));
+  FaceEstimate face = face_of(sample, camera, mesh, *window);
+  read_layers(reader, options, camera, false, true, face);
   const float level = lighting::shading_level(face.observations);
   if (face.observations.count() < kLeastPatches || !(level > 0)) return std::nullopt;
   const SphereGrid grid(lighting::kFeatureNside);

@@ -8,12 +8,11 @@
 #include "faceprobe/core/smooth_step.h"
 #include "faceprobe/core/vertex_normals.h"
 #include "pipeline/camera_of.h"
+#include "pipeline/head_fit.h"
 #include "pipeline/unwrap_fill.h"
-#include "pipeline/unwrap_fit.h"
 #include "pipeline/unwrap_mirror.h"
 #include "pipeline/unwrap_raster.h"
 #include "pipeline/unwrap_shading.h"
-#include "pipeline/unwrap_warp.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +22,6 @@
 namespace faceprobe::pipeline {
 namespace {
 
-constexpr double kWarpSoftness = 0.03;
 constexpr float kDepthSlackM = 0.004F;    // of the depth test: a texel may lie this far behind what the picture shows
 constexpr float kNearLandmarkM = 0.010F;  // up to here from a landmark the fit is trusted ...
 constexpr float kFarLandmarkM = 0.022F;   // ... and beyond it hair, collar and ears begin
@@ -82,32 +80,6 @@ FacePicture face_picture(const io::Photo& photo, const face::Face& face, int siz
   out.linear = face::crop_picture(photo.linear, out.crop);
   out.clipped = face::crop_flags(photo.clipped, out.crop);
   return out;
-}
-
-// Vertices as the picture shows them: crop pixels after the warp that takes the fitted landmarks to the photo's, and depth.
-Eigen::MatrixX3f picture_points(const HeadFit& fit, const LandmarkPairs& pairs, const face::Face& face,
-                                const face::Camera& camera, const face::Crop& crop, int threads) {
-  const auto to_crop = [&crop](const Eigen::Vector2d& px) -> Eigen::Vector2f {
-    return crop.crop_from_photo(px.x(), px.y()).cast<float>();
-  };
-  const auto count = static_cast<Eigen::Index>(pairs.mesh.size());
-  Eigen::MatrixX2f from(count, 2);
-  Eigen::MatrixX2f to(count, 2);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const int vertex = pairs.mesh[static_cast<std::size_t>(i)];
-    from.row(i) = to_crop(fit.landmarks_px.row(i).transpose().cast<double>()).transpose();
-    to.row(i) = to_crop(face.landmarks_px.row(vertex).head<2>().transpose().cast<double>()).transpose();
-  }
-  const ThinPlateWarp warp(from, to, kWarpSoftness);
-  Eigen::MatrixX3f points(fit.vertices_cam.rows(), 3);
-  parallel_for(static_cast<int>(points.rows()), threads, [&](int first, int last) {
-    for (int v = first; v < last; ++v) {
-      const Eigen::Vector3d p = fit.vertices_cam.row(v).transpose().cast<double>();
-      points.row(v).head<2>() = warp(to_crop(camera.project(p))).transpose();
-      points(v, 2) = static_cast<float>(-p.z());
-    }
-  });
-  return points;
 }
 
 // How near each vertex is to what the landmarks pin down, 0 .. 1.

@@ -47,6 +47,8 @@ TEST(ApplySurface, TheNetworksAxisIsTheViewOfTheFace) {
 TEST(ApplySurface, GlassesAreNoSkinAndOffTheMeshNothingIs) {
   face::FaceGeometry geometry = mesh_seen_along(Eigen::Vector3f::UnitZ());
   apply_normals(surface_of(Eigen::Vector3f::UnitZ()), geometry);
+  EXPECT_EQ(geometry.region(3, 4), static_cast<std::uint8_t>(Region::kCheeks));
+  apply_regions(surface_of(Eigen::Vector3f::UnitZ()), geometry);
   EXPECT_EQ(geometry.region(3, 4), static_cast<std::uint8_t>(Region::kGlasses));
   EXPECT_EQ(geometry.region(2, 2), static_cast<std::uint8_t>(Region::kForehead));
   EXPECT_EQ(geometry.region(0, 0), 0);

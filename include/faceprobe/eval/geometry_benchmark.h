@@ -11,6 +11,7 @@
 #include "faceprobe/eval/photo_input.h"
 #include "faceprobe/eval/score_table.h"
 #include "faceprobe/face/face.h"
+#include "faceprobe/face/geometry.h"
 #include "faceprobe/synth/shard.h"
 
 #include <array>
@@ -36,6 +37,9 @@ struct GeometryMethod {
 // The dense face mesh, posed and rasterised: what the light is read from without a network. The finder must be used by nobody else
 // meanwhile. Throws Error(kModel) when the mesh's file is missing.
 GeometryMethod mesh_method(std::shared_ptr<const face::FaceFinder> finder);
+// The same with another surface put over the mesh's, such as that of a fitted head model (pipeline/head_geometry.h).
+using SurfaceChange = std::function<void(const face::Face&, const face::Camera&, face::FaceGeometry&)>;
+GeometryMethod surface_method(std::string name, std::shared_ptr<const face::FaceFinder> finder, SurfaceChange change);
 
 struct GeometryBenchmark {
   int samples = 200;  // spread evenly over the data set; those that show less than 5 % skin are left out

@@ -1,7 +1,9 @@
-#include "pipeline/unwrap_fit.h"
+#include "pipeline/head_fit.h"
 
 #include "face/landmark_sets.h"
 #include "faceprobe/core/error.h"
+#include "faceprobe/core/parallel.h"
+#include "pipeline/unwrap_warp.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -14,6 +16,7 @@ constexpr int kRounds = 12;
 constexpr double kLandmarkNoise = 0.02;       // of the face's width: how far the network's points stray
 constexpr double kExpressionDeviation = 0.2;  // photos for skin are near neutral
 constexpr double kMaxIdentity = 3.0;          // standard deviations
+constexpr double kWarpSoftness = 0.03;
 
 // Where the landmarks are on the neutral head, and how each parameter moves them: 3 #landmarks x #parameters.
 struct LinearShape {
@@ -183,6 +186,31 @@ HeadFit fit_head(const synth::HeadModel& model, const LandmarkPairs& pairs, cons
   }
   fit.residual_px = std::sqrt((fit.landmarks_px.cast<double>() - wanted).rowwise().squaredNorm().mean());
   return fit;
+}
+
+Eigen::MatrixX3f picture_points(const HeadFit& fit, const LandmarkPairs& pairs, const face::Face& face,
+                                const face::Camera& camera, const face::Crop& crop, int threads) {
+  const auto to_crop = [&crop](const Eigen::Vector2d& px) -> Eigen::Vector2f {
+    return crop.crop_from_photo(px.x(), px.y()).cast<float>();
+  };
+  const auto count = static_cast<Eigen::Index>(pairs.mesh.size());
+  Eigen::MatrixX2f from(count, 2);
+  Eigen::MatrixX2f to(count, 2);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const int vertex = pairs.mesh[static_cast<std::size_t>(i)];
+    from.row(i) = to_crop(fit.landmarks_px.row(i).transpose().cast<double>()).transpose();
+    to.row(i) = to_crop(face.landmarks_px.row(vertex).head<2>().transpose().cast<double>()).transpose();
+  }
+  const ThinPlateWarp warp(from, to, kWarpSoftness);
+  Eigen::MatrixX3f points(fit.vertices_cam.rows(), 3);
+  parallel_for(static_cast<int>(points.rows()), threads, [&](int first, int last) {
+    for (int v = first; v < last; ++v) {
+      const Eigen::Vector3d p = fit.vertices_cam.row(v).transpose().cast<double>();
+      points.row(v).head<2>() = warp(to_crop(camera.project(p))).transpose();
+      points(v, 2) = static_cast<float>(-p.z());
+    }
+  });
+  return points;
 }
 
 }  // namespace faceprobe::pipeline

@@ -2,6 +2,7 @@
 // A head model's shape and pose that put its landmarks where a photo has them.
 
 #include "faceprobe/face/face.h"
+#include "faceprobe/face/geometry.h"
 #include "faceprobe/synth/head_model.h"
 
 #include <Eigen/Core>
@@ -30,6 +31,11 @@ struct HeadFit {
 // Gauss-Newton on pose, identity (ridge: one standard deviation) and expression. Starts at the pose of `face`.
 HeadFit fit_head(const synth::HeadModel& model, const LandmarkPairs& pairs, const face::Face& face,
                  const face::Camera& camera);
+
+// All of the fitted model's vertices as a picture shows them: crop pixels and depth (metres, positive), bent so that its landmarks lie
+// where the photo has them, which no model's modes reach to the pixel.
+Eigen::MatrixX3f picture_points(const HeadFit& fit, const LandmarkPairs& pairs, const face::Face& face,
+                                const face::Camera& camera, const face::Crop& crop, int threads);
 
 // A point of a surface from its vertices.
 inline Eigen::Vector3f surface_point(const Eigen::MatrixX3f& vertices, const Eigen::MatrixX3i& triangles,
