@@ -63,8 +63,11 @@ void check(const Eigen::MatrixX3f& radiance, const SphereGrid& grid, const MainL
     throw std::invalid_argument("Main lights need one radiance, and one confidence or none, per cell.");
 }
 
-// Cells that nothing within the separation outshines, brightest first.
-std::vector<int> find_peaks(const Eigen::VectorXd& smooth, const SphereGrid& grid, double least, float least_cosine) {
+// Seen cells that nothing within the separation outshines, brightest first. What hardly anything observed is no light and outshines none, but
+// its glow does not become one where it reaches into view: a cell beside a brighter hidden one lies on a slope.
+std::vector<int> find_peaks(const Eigen::VectorXd& smooth, const std::vector<char>& seen, const SphereGrid& grid,
+                            double least, float least_cosine) {
+  const auto beside = static_cast<float>(std::cos(1.5 * std::sqrt(grid.cell_solid_angle())));
   std::vector<int> order(static_cast<std::size_t>(grid.cell_count()));
   for (int i = 0; i < grid.cell_count(); ++i) order[static_cast<std::size_t>(i)] = i;
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return smooth[a] > smooth[b]; });
@@ -74,9 +77,10 @@ std::vector<int> find_peaks(const Eigen::VectorXd& smooth, const SphereGrid& gri
     if (smooth[cell] < least) break;
     if (suppressed[static_cast<std::size_t>(cell)]) continue;
     const Eigen::VectorXf cosines = grid.directions() * grid.direction(cell);
-    bool local_maximum = true;
+    const bool hidden = seen[static_cast<std::size_t>(cell)] == 0;
+    bool local_maximum = !hidden;
     for (int j = 0; j < grid.cell_count(); ++j) {
-      if (cosines[j] < least_cosine) continue;
+      if (cosines[j] < (hidden ? beside : least_cosine)) continue;
       // A cell on the slope of an earlier, suppressed peak is not a light of its own.
       if (suppressed[static_cast<std::size_t>(j)] && smooth[j] > smooth[cell]) local_maximum = false;
       suppressed[static_cast<std::size_t>(j)] = 1;
@@ -87,7 +91,8 @@ std::vector<int> find_peaks(const Eigen::VectorXd& smooth, const SphereGrid& gri
 }
 
 FoundLight gather(int peak, const std::vector<int>& peaks, const Eigen::MatrixX3f& radiance,
-                  const Eigen::VectorXd& level, double ambient, const SphereGrid& grid, float least_cosine) {
+                  const Eigen::VectorXd& level, const std::vector<char>& seen, double ambient, const SphereGrid& grid,
+                  float least_cosine) {
   FoundLight found;
   MainLight& light = found.light;
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
@@ -95,7 +100,7 @@ FoundLight gather(int peak, const std::vector<int>& peaks, const Eigen::MatrixX3
   for (int j = 0; j < grid.cell_count(); ++j) {
     const Eigen::Vector3f d = grid.direction(j);
     const float to_peak = d.dot(grid.direction(peak));
-    if (to_peak < least_cosine || level[j] <= ambient) continue;
+    if (to_peak < least_cosine || level[j] <= ambient || seen[static_cast<std::size_t>(j)] == 0) continue;
     // Between two equally near the one with the smaller number has it.
     const bool nearest = std::all_of(peaks.begin(), peaks.end(), [&](int other) {
       const float to_other = d.dot(grid.direction(other));
@@ -129,15 +134,14 @@ FoundLights find_lights(const Eigen::MatrixX3f& radiance, const SphereGrid& grid
   if (!(energy > 0)) return {};
   FoundLights found;
   found.ambient = upper_median_of(std::vector<double>(level.begin(), level.end()));
-  Eigen::VectorXd smooth = blurred(level, grid, radians(options.blur_deg));
-  // What hardly anything observed is neither a light nor outshines one.
-  for (Eigen::Index j = 0; j < confidence.size(); ++j) {
-    if (confidence[j] < static_cast<float>(options.min_confidence)) smooth[j] = 0;
-  }
+  const Eigen::VectorXd smooth = blurred(level, grid, radians(options.blur_deg));
+  std::vector<char> seen(static_cast<std::size_t>(grid.cell_count()), 1);
+  for (Eigen::Index j = 0; j < confidence.size(); ++j)
+    seen[static_cast<std::size_t>(j)] = confidence[j] >= static_cast<float>(options.min_confidence) ? 1 : 0;
   const auto least_cosine = static_cast<float>(std::cos(radians(options.separation_deg)));
-  const std::vector<int> peaks = find_peaks(smooth, grid, options.min_contrast * found.ambient, least_cosine);
+  const std::vector<int> peaks = find_peaks(smooth, seen, grid, options.min_contrast * found.ambient, least_cosine);
   for (const int peak : peaks) {
-    FoundLight light = gather(peak, peaks, radiance, level, found.ambient, grid, least_cosine);
+    FoundLight light = gather(peak, peaks, radiance, level, seen, found.ambient, grid, least_cosine);
     light.light.share = light.light.irradiance / energy;
     if (light.light.irradiance > 0 && light.light.share >= options.min_share) found.lights.push_back(std::move(light));
   }

@@ -47,6 +47,23 @@ TEST(MainLights, PeaksThatNothingObservedAreNoLights) {
   EXPECT_NEAR(azimuth_deg(lights[0].direction), 60, 4);
 }
 
+TEST(MainLights, TheSlopeOfAHiddenGlowIsNoLight) {
+  // A glow 20 degrees wide around a point 15 degrees behind the border of what is seen, and a lamp in view.
+  const SphereGrid grid(16);
+  Eigen::MatrixX3f map = lamp(grid, direction_from_angles(20, 30), 8, 0.05F);
+  Eigen::VectorXf confidence(grid.cell_count());
+  const Eigen::Vector3d middle = direction_from_angles(-105, 10);
+  for (int j = 0; j < grid.cell_count(); ++j) {
+    const double away = angle_between_deg(middle, grid.direction(j).cast<double>());
+    map.row(j).array() += 5.0F * static_cast<float>(std::exp(-0.5 * away * away / 400));
+    confidence[j] = grid.direction(j).z() > 0 ? 1.0F : 0.0F;
+  }
+  EXPECT_EQ(main_lights(map, grid).size(), 2U);
+  const std::vector<MainLight> lights = main_lights(map, grid, {}, confidence);
+  ASSERT_EQ(lights.size(), 1U);
+  EXPECT_NEAR(azimuth_deg(lights[0].direction), 20, 4);
+}
+
 TEST(MainLights, EvenLightAndDarknessHaveNone) {
   const SphereGrid grid(8);
   EXPECT_TRUE(main_lights(Eigen::MatrixX3f::Constant(grid.cell_count(), 3, 0.7F), grid).empty());
