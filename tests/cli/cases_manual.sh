@@ -210,7 +210,7 @@ LINES
 }
 
 # offered FILE OPTION: the words that --help shows in braces behind the option.
-offered() { grep -E -e "^  (-.,)?$2 " "$1" | grep -oE '\{[a-z,]+\}' | tr -d '{}' | tr ',' ' '; }
+offered() { grep -E -e "^  (-.,)?$2 " "$1" | grep -oE '\{[a-z0-9,]+\}' | tr -d '{}' | tr ',' ' '; }
 
 case_offered_values_are_taken() {
   expect_exit 0 estimate --help
@@ -223,6 +223,7 @@ case_offered_values_are_taken() {
       read -ra values <<<"$(offered help "--$option")"
       [ ${#values[@]} -ge 2 ] || fail "nothing is offered for --$option"
       arguments+=("--$option" "${values[round < ${#values[@]} ? round : ${#values[@]} - 1]}")
+      if [ "${arguments[-1]}" = 3dmm ]; then arguments+=(--head missing.jpg); fi  # which names its model
     done
     # What the photo is like is asked after the options.
     expect_refused 3 "missing.jpg" estimate missing.jpg "${arguments[@]}"

@@ -31,6 +31,9 @@ case_bad_options() {
   expect_refused 2 "cpu or cuda" estimate "$photo" --device gpu
   expect_refused 2 "openexr, three, blender or debevec" estimate "$photo" --orient mars
   expect_refused 2 "mesh" estimate "$photo" --geometry scan
+  expect_refused 2 "--head" estimate "$photo" --geometry 3dmm
+  expect_refused 2 "3dmm" estimate "$photo" --head heads
+  expect_refused 3 "heads" estimate "$photo" --geometry 3dmm --head heads
   expect_refused 2 "smooth" estimate "$photo" --prior crystal
   expect_refused 2 "iterations" estimate "$photo" --iterations 0
   expect_refused 2 "layer_px" estimate "$photo" --layer-px 5
