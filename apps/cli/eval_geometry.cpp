@@ -1,5 +1,6 @@
 #include "eval_stages.h"
 #include "faceprobe/eval/geometry_benchmark.h"
+#include "faceprobe/eval/paper_report.h"
 #include "faceprobe/io/atomic_file.h"
 #include "faceprobe/io/picture_file.h"
 #include "faceprobe/net/face_net.h"
@@ -62,7 +63,35 @@ std::string calibration_table(const std::vector<eval::CalibrationBin>& bins) {
     stated += fmt::format(" {:.1f} |", bins[b].stated_deg);
     real += fmt::format(" {:.1f} |", bins[b].true_deg);
   }
-  return head + "\n" + line + "\n" + stated + "\n" + real + "\n";
+  const eval::TrustThirds thirds = eval::thirds_of(bins);
+  return head + "\n" + line + "\n" + stated + "\n" + real +
+         fmt::format(
+             "\n\nThe third that it trusts most is off by {:.1f}, the third that it trusts least by {:.1f}: a ratio of "
+             "{:.2f}.\n",
+             thirds.best_deg, thirds.worst_deg, thirds.best_deg / thirds.worst_deg);
+}
+
+// Stated against true errors, beside the line on which they would be the same.
+eval::PaperReport calibration_page(const eval::GeometryScores& scores, const std::string& text) {
+  eval::ReportPlot plot{.title = "Errors of normals that are stated and true",
+                        .x_label = "stated, degrees",
+                        .y_label = "true, degrees",
+                        .kind = eval::PlotKind::kLines};
+  double largest = 0;
+  for (const auto& [method, bins] : scores.calibration) {
+    eval::ReportSeries series{.name = method, .ours = true};
+    for (const eval::CalibrationBin& bin : bins) {
+      series.x.push_back(bin.stated_deg);
+      series.values.push_back(bin.true_deg);
+      largest = std::max(largest, bin.stated_deg);
+    }
+    plot.series.push_back(std::move(series));
+  }
+  plot.series.push_back({.name = "the same", .values = {0, largest}, .x = {0, largest}});
+  eval::PaperReport page{.title = "Normals and regions"};
+  page.sections.push_back({.id = "calibration", .title = "Is the stated error the true one?", .text = text});
+  page.sections.back().plots.push_back(std::move(plot));
+  return page;
 }
 
 std::string overlap_table(const eval::GeometryScores& scores) {
@@ -128,6 +157,12 @@ int eval_geometry(const EvalOptions& options) {
   io::create_folder(folder);
   io::write_file_atomically(folder / "geometry.csv", scores.table.csv());
   io::write_file_atomically(folder / "geometry.json", scores.table.json());
+  if (!scores.calibration.empty()) {
+    io::write_file_atomically(
+        folder / "calibration.html",
+        eval::report_html(calibration_page(
+            scores, "Each point is a tenth of the skin's pixels, by the error that is stated for them.")));
+  }
   io::write_picture(folder / "geometry.png", eval::draw_geometry(faces, methods, options.rows));
   return 0;
 }

@@ -216,4 +216,17 @@ ByteImage draw_geometry(const synth::ShardReader& faces, const std::vector<Geome
   return sheet;
 }
 
+TrustThirds thirds_of(const std::vector<CalibrationBin>& bins) {
+  const double third = static_cast<double>(bins.size()) / 3;
+  const auto mean_from = [&](bool from_the_end) {
+    double sum = 0;
+    for (std::size_t i = 0; i < bins.size(); ++i) {
+      const double share = std::clamp(third - static_cast<double>(i), 0.0, 1.0);
+      sum += share * bins[from_the_end ? bins.size() - 1 - i : i].true_deg;
+    }
+    return sum / third;  // 0 / 0 without bins
+  };
+  return {mean_from(false), mean_from(true)};
+}
+
 }  // namespace faceprobe::eval

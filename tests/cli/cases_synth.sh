@@ -92,7 +92,7 @@ case_face_network() {
   expect_exit 0 eval geometry --data faces --weights mine=run/weights.safetensors --samples 4 -o scores --threads 1
   expect_stdout "| mine |"
   expect_stdout "| mesh |"
-  expect_files scores geometry.csv geometry.json geometry.png
+  expect_files scores calibration.html geometry.csv geometry.json geometry.png
   expect_exit 0 eval shading --data faces --weights mine=run/weights.safetensors --samples 4 --threads 1
   expect_stdout "| one albedo |"
   expect_refused 5 "run/config.json" eval geometry --data faces --weights run/config.json

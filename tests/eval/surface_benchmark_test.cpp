@@ -24,6 +24,16 @@ GeometryMethod off_by(const SmallFaces& faces, const std::string& name, double a
   return {name, [estimate](const PhotoInput&) { return estimate; }};
 }
 
+TEST(GeometryBenchmark, ThirdsAreMeansOverAThirdOfThePixels) {
+  EXPECT_DOUBLE_EQ(thirds_of({{0, 1}, {0, 5}, {0, 3}}).best_deg, 1);
+  EXPECT_DOUBLE_EQ(thirds_of({{0, 1}, {0, 5}, {0, 3}}).worst_deg, 3);
+  std::vector<CalibrationBin> tenths;
+  for (int i = 0; i < 10; ++i) tenths.push_back({0, static_cast<double>(i)});
+  EXPECT_NEAR(thirds_of(tenths).best_deg, (0 + 1 + 2 + 3 / 3.0) / (10 / 3.0), 1e-12);
+  EXPECT_NEAR(thirds_of(tenths).worst_deg, (9 + 8 + 7 + 6 / 3.0) / (10 / 3.0), 1e-12);
+  EXPECT_TRUE(std::isnan(thirds_of({}).best_deg));
+}
+
 TEST(GeometryBenchmark, MeasuresTheAngleTheStatedErrorAndTheRegions) {
   const SmallFaces small;
   const synth::ShardReader faces(small.path());

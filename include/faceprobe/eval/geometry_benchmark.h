@@ -54,6 +54,14 @@ struct CalibrationBin {
   double true_deg = 0;
 };
 
+// True errors where a method trusts itself most and least: means over the third of the pixels that it states the least errors of, and the third
+// with the largest; the bins hold as many pixels each, one that lies across a border counts by its share. NaN without bins.
+struct TrustThirds {
+  double best_deg = 0;
+  double worst_deg = 0;
+};
+TrustThirds thirds_of(const std::vector<CalibrationBin>& bins);
+
 struct GeometryScores {
   // Metrics of each row, degrees: normal and normal_median over the skin, normal_forehead, ... over parts of it that the photo shows at
   // least 20 pixels of. Only pixels count for which every method that found the face has a normal; where a method found none its figures
