@@ -23,6 +23,7 @@ struct Options {
   std::string config;
   std::string device = "auto";
   std::vector<std::string> scenes;
+  std::vector<std::string> more;
   bool json = false;
   train::TrainRun run;
 };
@@ -61,8 +62,10 @@ int run(Options options) {
   const std::string config_json = config_text(options.config);
   if (options.net != "sky" && !options.scenes.empty())
     throw Error(ExitCode::kUsage, "train " + options.net + " takes no --scenes; sky does.");
+  if (options.net != "light" && !options.more.empty())
+    throw Error(ExitCode::kUsage, "train " + options.net + " takes no --more; light does.");
   if (options.net != "highlight" && options.net != "face") refuse_options_of_highlight(options);
-  if (options.net == "light") return train_light(options.run, config_json);
+  if (options.net == "light") return train_light(options.run, options.more, config_json);
   if (options.net == "gardner") return train_gardner(options.run, config_json);
   if (options.net == "legendre") return train_legendre(options.run, config_json);
   if (options.net == "sky") return train_sky(options.run, config_json, options.scenes);
@@ -107,6 +110,8 @@ void add_train(CLI::App& program, Action& action) {
   command->add_option("--data", options->run.data, "folder that `faceprobe synth` wrote; of maps for gardner and sky")
       ->type_name("DIR")
       ->required();
+  command->add_option("--more", options->more, "light: further such folders, learnt from as well; default: none")
+      ->type_name("DIR");
   command
       ->add_option("--validation", options->run.validation_data,
                    "such a folder of other people or maps, to measure on; default: nothing is measured")

@@ -61,6 +61,18 @@ Examples read_examples(const std::filesystem::path& folder) {
   return out;
 }
 
+Examples read_all(const LightRun& run) {
+  std::vector<torch::Tensor> features, light;
+  const auto take = [&](const std::filesystem::path& folder) {
+    const Examples examples = read_examples(folder);
+    features.push_back(examples.features);
+    light.push_back(examples.light);
+  };
+  take(run.data);
+  for (const std::filesystem::path& folder : run.more_data) take(folder);
+  return {torch::cat(features), torch::cat(light)};
+}
+
 // Where a cell's mirror image is, as an index.
 torch::Tensor mirror_index() {
   Eigen::MatrixXf numbers(lighting::kFeatureCells, 1);
@@ -106,8 +118,8 @@ Examples grey(const Examples& examples) {
 class LightTraining {
  public:
   explicit LightTraining(const LightRun& run)
-      : config_(run.config), data_(read_examples(run.data)), mirror_(mirror_index()),
-        mirror_features_(mirrored_feature_index()), net_(make_net(run.config)) {
+      : config_(run.config), data_(read_all(run)), mirror_(mirror_index()), mirror_features_(mirrored_feature_index()),
+        net_(make_net(run.config)) {
     if (!run.validation_data.empty()) validation_ = read_examples(run.validation_data);
     net_->standardise(data_.features);
     start_at_median();

@@ -95,6 +95,20 @@ TEST_F(TrainLightTest, TheSameSeedGivesTheSameBytes) {
   EXPECT_NE(bytes(train_light(run_).weights), once);
 }
 
+TEST_F(TrainLightTest, TwoFoldersAreAsOneWithBoth) {
+  run_.config.epochs = 1;
+  const std::string once = bytes(train_light(run_).weights);
+  for (int shard = 0; shard < 2; ++shard) {
+    const std::filesystem::path half = folder_ / ("half" + std::to_string(shard));
+    std::filesystem::create_directory(half);
+    std::filesystem::copy(folder_ / "train" / synth::traced_name(shard), half);
+  }
+  run_.data = folder_ / "half0";
+  run_.more_data = {folder_ / "half1"};
+  run_.folder = folder_ / "both";
+  EXPECT_EQ(bytes(train_light(run_).weights), once);
+}
+
 TEST_F(TrainLightTest, DataThatWereNotReadAreASentence) {
   std::filesystem::create_directory(folder_ / "empty");
   run_.data = folder_ / "empty";

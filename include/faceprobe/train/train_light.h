@@ -54,9 +54,10 @@ struct LightRow {
 
 struct LightRun {
   LightConfig config;
-  std::filesystem::path data;             // folder with traced photos
-  std::filesystem::path validation_data;  // empty: no validation
-  std::filesystem::path folder;           // made; gets weights.safetensors, log.csv, config.json
+  std::filesystem::path data;                    // folder with traced photos
+  std::vector<std::filesystem::path> more_data;  // more of them, in the order in which they are learnt from
+  std::filesystem::path validation_data;         // empty: no validation
+  std::filesystem::path folder;                  // made; gets weights.safetensors, log.csv, config.json
   int threads = 0;
 };
 
