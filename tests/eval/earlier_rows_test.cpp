@@ -78,6 +78,16 @@ TEST(EarlierRows, WithMissingPhotosMakeNoColumnComparable) {
   EXPECT_FALSE(table.rows[1].values[2]);
 }
 
+TEST(EarlierRows, KeepTheirMarks) {
+  PaperReport now = report_with({kEmpty});
+  PaperReport before = report_with({kEmpty, {.name = "told", .values = {1, 100}, .bound = true}});
+  ASSERT_FALSE(add_earlier_rows(now, before).empty());
+  const ReportTable::Row& told = now.sections[0].tables[0].rows[1];
+  EXPECT_TRUE(told.bound);
+  EXPECT_TRUE(is_earlier(told));
+  EXPECT_FALSE(is_earlier(now.sections[0].tables[0].rows[0]));
+}
+
 TEST(EarlierRows, FollowTheColumnsByName) {
   PaperReport now = report_with({kEmpty});
   now.sections[0].tables[0].columns = {"n", "median", "mean"};
@@ -100,6 +110,8 @@ TEST(EarlierSections, KeepTheirOrderAndSayWhatTheyAre) {
   EXPECT_EQ(add_earlier_sections(now, before), (std::vector<std::string>{"A", "C"}));
   ASSERT_EQ(now.sections.size(), 4U);
   EXPECT_EQ(now.sections[0].text, "Old.\n\nThese figures are an earlier version's.");
+  EXPECT_TRUE(is_earlier(now.sections[0]));
+  EXPECT_FALSE(is_earlier(now.sections[1]));
   EXPECT_EQ(now.sections[1].text, "New.");
   EXPECT_EQ(now.sections[2].id, "c");
   EXPECT_EQ(now.sections[3].id, "d");

@@ -67,6 +67,8 @@ ReportSection full_section() {
                       {.title = "Clear", .picture = speckles(3, 11, 4)},
                       {.title = "None", .picture = ByteImage()}};
   section.missing = "The photos are not published.";
+  section.notes = "Beware.";
+  section.tables[0].rows[1].bound = true;
   return section;
 }
 
@@ -145,19 +147,69 @@ TEST(PaperReport, BestValuesAreBold) {
   EXPECT_TRUE(has(html,
                   "<small>1 missing</small></th><td class=\"of\">-</td><td "
                   "class=\"range\"></td><td><strong>0.75</strong></td><td>9</td>"));
-  EXPECT_TRUE(has(html,
-                  "<tr class=\"ours\"><th scope=\"row\">net</th><td class=\"of\"><strong>2.0</strong></td><td "
-                  "class=\"range\"></td><td>0.25</td><td>-</td>"));
+  EXPECT_TRUE(has(
+      html,
+      "<tr class=\"ours\"><th scope=\"row\">net <small>ours</small></th><td class=\"of\"><strong>2.0</strong></td><td "
+      "class=\"range\"></td><td>0.25</td><td>-</td>"));
   EXPECT_TRUE(has(html, "2.1</td><td class=\"range\"></td><td>-</td><td>11</td>"));
   EXPECT_TRUE(has(html, "error\u00a0<abbr title=\"lower is better\">"));
   EXPECT_TRUE(has(html, "likeness\u00a0<abbr title=\"higher is better\">"));
   EXPECT_TRUE(has(html, "<th scope=\"col\">n</th>"));
   const std::string markdown =
       report_markdown({.title = "t", .sections = {{.id = "s", .title = "S", .tables = {small_report_table()}}}});
-  EXPECT_EQ(markdown,
-            "# t\n\n## S\n\n### RMSE\n\n| method | error | likeness | n |\n|---|---:|---:|---:|\n"
-            "| a | **2.0** [1.0, 3.0] | 0.50 | 10 |\n| b (1 missing) | - | **0.75** | 9 |\n"
-            "| net | **2.0** | 0.25 | - |\n| d | 2.1 | - | 11 |\n\nOf 255.\n");
+  EXPECT_TRUE(markdown.starts_with("# t\n\nHow to read the tables: ")) << markdown;
+  EXPECT_TRUE(
+      markdown.ends_with("\n\n## S\n\n### RMSE\n\n| method | error | likeness | n |\n|---|---:|---:|---:|\n"
+                         "| a | **2.0** [1.0, 3.0] | 0.50 | 10 |\n| b (1 missing) | - | **0.75** | 9 |\n"
+                         "| net (ours) | **2.0** | 0.25 | - |\n| d | 2.1 | - | 11 |\n\nOf 255.\n"))
+      << markdown;
+}
+
+TEST(PaperReport, BoundsAreNotTheBest) {
+  ReportTable table{.title = "t",
+                    .columns = {"x"},
+                    .rows = {{.name = "a", .values = {2}},
+                             {.name = "told", .values = {1}, .bound = true},
+                             {.name = "told and as good", .values = {2}, .bound = true},
+                             {.name = "b", .values = {3}}},
+                    .better = {Better::kLower}};
+  PaperReport report{.title = "t", .sections = {{.id = "s", .title = "s", .tables = {table}}}};
+  const std::string markdown = report_markdown(report);
+  EXPECT_TRUE(has(markdown, "| a | **2.000** |\n| told (bound) | 1.000 |\n| told and as good (bound) | 2.000 |\n"))
+      << markdown;
+  EXPECT_TRUE(has(markdown, "\"bound\""));
+  EXPECT_TRUE(has(report_html(report), "told <small>bound</small>"));
+  // One method and bounds: nothing to compare.
+  report.sections[0].tables[0].rows.pop_back();
+  EXPECT_FALSE(has(report_markdown(report), "**2.000**"));
+}
+
+TEST(PaperReport, LegendTellsOfWhatIsThere) {
+  EXPECT_EQ(how_to_read({.title = "t", .sections = {{.id = "s", .title = "s"}}}), "");
+  ReportTable table{.title = "t", .columns = {"mean"}, .rows = {{.name = "a", .values = {1}}}};
+  PaperReport report{.title = "t", .sections = {{.id = "s", .title = "s", .tables = {table}}}};
+  const std::string plain = how_to_read(report);
+  EXPECT_TRUE(has(plain, "95 % interval of the mean by bootstrap"));
+  for (const char* mark : {"\"ours\"", "\"bound\"", "\"earlier\"", "a column more"})
+    EXPECT_FALSE(has(plain, mark)) << mark;
+  report.sections[0].tables[0].columns.push_back(common_column(7));
+  report.sections[0].tables[0].rows.push_back({.name = "b", .ours = true, .note = "2 missing, earlier", .bound = true});
+  const std::string full = how_to_read(report);
+  for (const char* mark : {"\"ours\"", "\"bound\"", "\"earlier\"", "a column more"})
+    EXPECT_TRUE(has(full, mark)) << mark;
+  EXPECT_EQ(marks_of(report.sections[0].tables[0].rows[1]), "ours, bound, 2 missing, earlier");
+}
+
+TEST(PaperReport, TermsAndNotesAreShown) {
+  const PaperReport report{.title = "t",
+                           .terms = {{"lite", "a < b"}},
+                           .sections = {{.id = "s", .title = "S", .text = "Text.", .notes = "Beware."}}};
+  const std::string html = report_html(report);
+  EXPECT_EQ(testing::XmlCheck::problem(html), "");
+  EXPECT_TRUE(has(html, "<dt>lite</dt><dd>a &lt; b</dd>"));
+  EXPECT_TRUE(has(html, "<p>Text.</p>\n<p>Beware.</p>"));
+  EXPECT_EQ(report_markdown(report), "# t\n\n- **lite**: a < b\n\n## S\n\nText.\n\nBeware.\n");
+  EXPECT_EQ(report_from_json(report_json(report)), report);
 }
 
 TEST(PaperReport, OneValueIsNotTheBest) {
@@ -175,7 +227,7 @@ TEST(PaperReport, WhatIsEmptySaysSo) {
   EXPECT_EQ(testing::XmlCheck::problem(nothing), "");
   EXPECT_TRUE(has(nothing, "This report has no sections."));
   EXPECT_EQ(report_markdown({.title = ""}), "");
-  EXPECT_EQ(report_csv({.title = ""}), "section,table,row,column,value,low,high\r\n");
+  EXPECT_EQ(report_csv({.title = ""}), "section,table,row,column,value,low,high,marks\r\n");
   EXPECT_TRUE(nlohmann::json::parse(report_json({.title = ""}))["sections"].empty());
 
   ReportSection section{.id = "s", .title = "S"};
@@ -293,9 +345,20 @@ TEST(PaperReport, CsvHasOneLineAValue) {
   for (ReportTable::Row& row : table.rows) row.values.resize(1);
   table.rows[0].values[0] = 0.1;
   EXPECT_EQ(report_csv({.title = "t", .sections = {{.id = "s", .title = "S", .tables = {table}}}}),
-            "section,table,row,column,value,low,high\r\ns,\"a, \"\"b\"\"\",a,error,0.1,1,3\r\ns,\"a, "
-            "\"\"b\"\"\",b,error,,,\r\n"
-            "s,\"a, \"\"b\"\"\",net,error,1.96,,\r\ns,\"a, \"\"b\"\"\",d,error,2.06,,\r\n");
+            "section,table,row,column,value,low,high,marks\r\ns,\"a, \"\"b\"\"\",a,error,0.1,1,3,\r\ns,\"a, "
+            "\"\"b\"\"\",b,error,,,,1 missing\r\n"
+            "s,\"a, \"\"b\"\"\",net,error,1.96,,,ours\r\ns,\"a, \"\"b\"\"\",d,error,2.06,,,\r\n");
+}
+
+TEST(PaperReport, CsvMarksWhatAnEarlierVersionMeasured) {
+  const ReportTable table{
+      .title = "t",
+      .columns = {"x"},
+      .rows = {{.name = "a", .values = {1}, .bound = true}, {.name = "b", .values = {2}, .note = "earlier"}}};
+  PaperReport report{.title = "t", .sections = {{.id = "s", .title = "S", .tables = {table}}}};
+  EXPECT_TRUE(has(report_csv(report), "a,x,1,,,bound\r\ns,t,b,x,2,,,earlier\r\n")) << report_csv(report);
+  report.sections[0].text = "These figures are an earlier version's.";
+  EXPECT_TRUE(has(report_csv(report), "a,x,1,,,\"bound, earlier\"\r\ns,t,b,x,2,,,earlier\r\n")) << report_csv(report);
 }
 
 TEST(PaperReport, RefusesRowsWithTooManyValues) {
@@ -325,7 +388,7 @@ ScoreTable four_photos() {
 TEST(ScoreReport, TableOfMethods) {
   const ReportTable table = table_of(four_photos(), "rmse", "RMSE", 1, {"net"});
   // One answered but three photos: their means over all they answered do not compare.
-  EXPECT_EQ(table.columns, (std::vector<std::string>{"mean", "median", "n", "mean of the 3 all have"}));
+  EXPECT_EQ(table.columns, (std::vector<std::string>{"mean", "median", "n", "mean of the 3 that all of this run have"}));
   ASSERT_EQ(table.rows.size(), 2U);
   EXPECT_EQ(table.rows[0].values, (std::vector<std::optional<double>>{5.5, 5.5, 4, 5}));
   EXPECT_EQ(table.rows[1].values, (std::vector<std::optional<double>>{2, 2, 3, 2}));
@@ -348,6 +411,30 @@ TEST(ScoreReport, TableOfMethodsThatAnsweredAll) {
   const ReportTable table = table_of(scores, "rmse", "RMSE");
   EXPECT_EQ(table.columns, (std::vector<std::string>{"mean", "median", "n"}));
   EXPECT_EQ(table.better, (std::vector<Better>{Better::kLower, Better::kLower, Better::kNeither}));
+}
+
+TEST(ScoreReport, WhoWasNotAskedHasNoLine) {
+  ScoreTable scores = four_photos();
+  scores.add({.method = "other", .sample = "0", .groups = {{"skin", "dark"}}, .metrics = {{"ssim", 1}}});
+  EXPECT_EQ(table_of(scores, "rmse", "RMSE").rows.size(), 2U);
+  EXPECT_EQ(table_by_group(scores, "rmse", "skin", "By skin").rows.size(), 2U);
+  EXPECT_EQ(table_of(scores, "rmse", "RMSE").rows[1].values[3], 2);  // the means over common samples keep their rows
+}
+
+TEST(ScoreReport, TableOfMetrics) {
+  ScoreTable scores({.seed = 1, .resamples = 50});
+  for (const char* sample : {"1", "2"}) {
+    scores.add({.method = "a", .sample = sample, .metrics = {{"x", 2}, {"y", 4}}});
+    scores.add({.method = "b", .sample = sample, .metrics = {{"x", 3}, {"y", sample[0] == '1' ? kNan : 1}}});
+  }
+  const ReportTable table = table_of_metrics(scores, {{"x", "first"}, {"y", "second"}}, "Both", 1, {"a"});
+  EXPECT_EQ(table.columns, (std::vector<std::string>{"first", "second"}));
+  EXPECT_EQ(table.rows[0].values, (std::vector<std::optional<double>>{2, 4}));
+  EXPECT_EQ(table.rows[1].values, (std::vector<std::optional<double>>{3, 1}));
+  EXPECT_EQ(table.rows[1].note, "1 missing");
+  EXPECT_EQ(table.rows[0].intervals[0], std::pair(2.0, 2.0));
+  EXPECT_EQ(table.better, (std::vector<Better>{Better::kLower, Better::kNeither}));
+  EXPECT_TRUE(table.rows[0].ours);
 }
 
 TEST(ScoreReport, TableByGroup) {

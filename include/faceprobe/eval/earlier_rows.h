@@ -24,4 +24,8 @@ std::set<std::string> add_earlier_rows(PaperReport& report, const PaperReport& e
 // that only `report` has at the end. Returns the titles of the sections added.
 std::vector<std::string> add_earlier_sections(PaperReport& report, const PaperReport& earlier);
 
+// Whether a row, or all of a section, came from an earlier report by these functions.
+bool is_earlier(const ReportTable::Row& row);
+bool is_earlier(const ReportSection& section);
+
 }  // namespace faceprobe::eval

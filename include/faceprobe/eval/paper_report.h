@@ -27,7 +27,7 @@ namespace faceprobe::eval {
 enum class Better { kLower, kHigher, kNeither };  // which value of a column is the best
 
 // One line a method, one column a figure. In columns that are lower or higher the better the best value is bold, as are those that look the
-// same when rounded, unless there is only one.
+// same when rounded, unless there is only one. Rows that are bounds are never the best, and do not count for it.
 struct ReportTable {
   struct Row {
     std::string name;
@@ -35,6 +35,7 @@ struct ReportTable {
     std::vector<std::optional<std::pair<double, double>>> intervals = {};  // of the values: low, high
     bool ours = false;                                                     // set off from the others
     std::string note = {};                                                 // small, beside the name
+    bool bound = false;  // was told a part of the truth: what could be reached, not a method to compare with
 
     bool operator==(const Row&) const = default;
   };
@@ -96,6 +97,7 @@ struct ReportSection {
   std::string id;            // for links to it; letters, digits, "-" and "_" are kept
   std::string title;         // its heading
   std::string text = {};     // plain; an empty line begins a paragraph
+  std::string notes = {};    // the same, below it: what to know before the figures are compared
   std::string command = {};  // what prints these figures
   std::vector<ReportTable> tables = {};
   std::vector<ReportPlot> plots = {};
@@ -107,7 +109,8 @@ struct ReportSection {
 
 struct PaperReport {
   std::string title;
-  std::string made_with = {};  // version, date, data; an empty line begins a paragraph
+  std::string made_with = {};                                   // version, date, data; an empty line begins a paragraph
+  std::vector<std::pair<std::string, std::string>> terms = {};  // a word of the tables, and what it means; at the head
   std::vector<ReportSection> sections = {};
 
   bool operator==(const PaperReport&) const = default;
@@ -116,14 +119,20 @@ struct PaperReport {
 // The whole page: HTML that is well-formed XML too, style sheet, plots and pictures inside, no scripts. Throws Error(kUsage) for a picture of
 // another number of channels.
 std::string report_html(const PaperReport& report);
-// Tables and the plots' values; of a picture its title, caption and size. Missing values are null.
+// Tables and the plots' values; of a picture its title, caption and size. Missing values are null. What earlier versions did not write (terms,
+// notes of sections, bounds) may be missing when it is read.
 std::string report_json(const PaperReport& report);
 // The same report but for its pictures, which are empty; numbers to the last digit. Throws Error(kInput) for any other text.
 PaperReport report_from_json(const std::string& text);
-// Every value of the tables, one a line: section, table, row, column, value, low, high; RFC 4180, numbers read back exactly.
+// Every value of the tables, one a line: section, table, row, column, value, low, high, marks (those of marks_of()); RFC 4180, numbers read back
+// exactly.
 std::string report_csv(const PaperReport& report);
-// Titles, texts, commands and tables, best values bold; sections are "##".
+// Titles, texts, commands and tables, best values bold; sections are "##". Marks stand beside the names.
 std::string report_markdown(const PaperReport& report);
+// What is told beside a row's name: "ours", "bound" and its note, with commas between; empty where there is nothing.
+std::string marks_of(const ReportTable::Row& row);
+// What brackets, bold and marks mean, as far as `report` has them; empty for a report without tables.
+std::string how_to_read(const PaperReport& report);
 
 // One section with its pictures, to be kept and read again.
 std::string section_json(const ReportSection& section);
@@ -131,12 +140,14 @@ std::string section_json(const ReportSection& section);
 // Error(kInput) for any other text, also of another version of the program.
 ReportSection section_from_json(const std::string& text);
 
-// Columns "mean" with its interval, "median" and "n"; one row a method. Rows of `scores` without the metric are left out, those where it is NaN
-// are missing, and a method that has them says how many. Then there is a column more, common_column(): means over the samples that all methods
-// answered, but for those that answered none; only these compare, and only the best of them is bold. `ours`: names of methods.
+// Columns "mean" with its interval, "median" and "n"; one row a method that has the metric. Rows of `scores` without it are left out, those where
+// it is NaN are missing, and a method that has them says how many. Then there is a column more, common_column(): means over the samples that all
+// methods answered, but for those that answered none; only these compare, and only the best of them is bold. `ours`: names of methods.
 ReportTable table_of(const ScoreTable& scores, const std::string& metric, const std::string& title, int decimals = 3,
                      const std::set<std::string>& ours = {}, Better better = Better::kLower);
-std::string common_column(std::size_t samples);  // "mean of the 17 all have"
+std::string common_column(std::size_t samples);  // "mean of the 17 that all of this run have"
+// Also for the names that earlier versions gave it.
+bool is_common_column(const std::string& column);
 // The same rows: mean and interval of each label, one column a label, with the number of values beside the label, or by row where methods differ. No value of a label
 // is bold where some method has values missing.
 ReportTable table_by_group(const ScoreTable& scores, const std::string& metric, const std::string& group,
@@ -148,6 +159,11 @@ ReportPlot histogram_of(const ScoreTable& scores, const std::string& metric, con
 // The same values as the share of samples within x.
 ReportPlot cumulative_of(const ScoreTable& scores, const std::string& metric, const std::string& title,
                          const std::string& unit, const std::set<std::string>& ours = {});
+// One column a metric: means with their intervals, titled by the second of each pair. No value of a column is bold where some method has values
+// missing, and such a method says how many at most.
+ReportTable table_of_metrics(const ScoreTable& scores, const std::vector<std::pair<std::string, std::string>>& metrics,
+                             const std::string& title, int decimals = 3, const std::set<std::string>& ours = {},
+                             Better better = Better::kLower);
 // Mean and interval of every method, over all rows or for each label of `group`.
 ReportPlot bars_of(const ScoreTable& scores, const std::string& metric, const std::string& title,
                    const std::string& unit, const std::set<std::string>& ours = {}, const std::string& group = {});

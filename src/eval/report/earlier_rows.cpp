@@ -15,8 +15,7 @@ namespace {
 constexpr const char* kNote = "earlier";
 // Of a value. The same faces, made and measured on another processor, differ by 1.5e-5 at most in 17 tables; other faces by tenths.
 constexpr double kSame = 1e-4;
-constexpr std::string_view kCommon =
-    " all have";  // ends the name of a column of means over what all of its rows answered (common_column())
+constexpr std::string_view kSentence = "These figures are an earlier version's.";  // ends the text of a whole section
 
 template <class Items, class Key>
 auto find_by(Items& items, Key key, const std::string& wanted) {
@@ -32,7 +31,8 @@ bool same_value(const std::optional<double>& a, const std::optional<double>& b) 
 std::vector<std::optional<std::size_t>> places_in(const ReportTable& table, const ReportTable& earlier) {
   std::vector<std::optional<std::size_t>> places;
   for (const std::string& column : table.columns) {
-    const auto found = column.ends_with(kCommon) ? earlier.columns.end() : std::ranges::find(earlier.columns, column);
+    // Such means are over what the rows of one run answered, and hold for no other's.
+    const auto found = is_common_column(column) ? earlier.columns.end() : std::ranges::find(earlier.columns, column);
     places.push_back(found == earlier.columns.end()
                          ? std::nullopt
                          : std::optional(static_cast<std::size_t>(found - earlier.columns.begin())));
@@ -41,7 +41,7 @@ std::vector<std::optional<std::size_t>> places_in(const ReportTable& table, cons
 }
 
 ReportTable::Row in_columns(const ReportTable::Row& row, const std::vector<std::optional<std::size_t>>& places) {
-  ReportTable::Row out{.name = row.name, .ours = row.ours, .note = row.note};
+  ReportTable::Row out{.name = row.name, .ours = row.ours, .note = row.note, .bound = row.bound};
   for (const std::optional<std::size_t>& place : places) {
     out.values.push_back(place && *place < row.values.size() ? row.values[*place] : std::nullopt);
     out.intervals.push_back(place && *place < row.intervals.size() ? row.intervals[*place] : std::nullopt);
@@ -73,8 +73,7 @@ void add_rows(ReportTable& table, const ReportTable& earlier, std::set<std::stri
   for (const ReportTable::Row& row : earlier.rows) {
     if (find_by(table.rows, &ReportTable::Row::name, row.name) != table.rows.end()) continue;
     ReportTable::Row added = in_columns(row, places);
-    if (!std::string_view(added.note).ends_with(kNote))
-      added.note += added.note.empty() ? kNote : std::string(", ") + kNote;
+    if (!is_earlier(added)) added.note += added.note.empty() ? kNote : std::string(", ") + kNote;
     // Means over fewer photos are not the best of a column, as in table_of().
     if (added.note.find("missing") != std::string::npos) table.better.assign(table.columns.size(), Better::kNeither);
     taken.insert(added.name);
@@ -108,6 +107,10 @@ std::string listed(const std::set<std::string>& names) {
 
 }  // namespace
 
+bool is_earlier(const ReportTable::Row& row) { return std::string_view(row.note).ends_with(kNote); }
+
+bool is_earlier(const ReportSection& section) { return std::string_view(section.text).ends_with(kSentence); }
+
 std::set<std::string> add_earlier_rows(PaperReport& report, const PaperReport& earlier) {
   std::set<std::string> all;
   for (ReportSection& section : report.sections) {
@@ -130,7 +133,6 @@ std::set<std::string> add_earlier_rows(PaperReport& report, const PaperReport& e
 }
 
 std::vector<std::string> add_earlier_sections(PaperReport& report, const PaperReport& earlier) {
-  constexpr std::string_view kSentence = "These figures are an earlier version's.";
   std::vector<std::string> added;
   std::vector<ReportSection> ordered;
   for (const ReportSection& before : earlier.sections) {
@@ -142,7 +144,7 @@ std::vector<std::string> add_earlier_sections(PaperReport& report, const PaperRe
     }
     ordered.push_back(before);
     std::string& text = ordered.back().text;
-    if (!text.ends_with(kSentence)) text.append(text.empty() ? "" : "\n\n").append(kSentence);
+    if (!is_earlier(before)) text.append(text.empty() ? "" : "\n\n").append(kSentence);
     added.push_back(before.title);
   }
   std::move(report.sections.begin(), report.sections.end(), std::back_inserter(ordered));

@@ -29,6 +29,9 @@ p { margin: 0 0 0.75rem; max-width: 46rem; }
 a { color: var(--link); }
 code { font: 0.875em/1.5 ui-monospace, "SFMono-Regular", Menlo, Consolas, "Liberation Mono", "DejaVu Sans Mono", monospace; overflow-wrap: anywhere; }
 .note, .read { color: var(--dim); font-size: 0.875rem; }
+dl.read { max-width: 46rem; }
+.read dt { font-weight: 600; }
+.read dd { margin: 0 0 0.25rem 1rem; }
 .command { font-size: 0.875rem; color: var(--dim); }
 .command code { color: var(--ink); background: var(--tint); padding: 0.1em 0.35em; border-radius: 3px; }
 nav ol { margin: 0 0 1.5rem; padding-left: 1.6rem; }

@@ -6,8 +6,6 @@
 #include "eval/report/table_cells.h"
 #include "faceprobe/io/picture_file.h"
 
-#include <algorithm>
-
 namespace faceprobe::eval {
 namespace {
 
@@ -51,7 +49,7 @@ std::string html_table(const ReportTable& table) {
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     const ReportTable::Row& row = table.rows[i];
     out += (row.ours ? "<tr class=\"ours\"><th scope=\"row\">" : "<tr><th scope=\"row\">") + escaped_html(row.name);
-    if (!row.note.empty()) out += ' ' + element("small", row.note);
+    if (const std::string marks = marks_of(row); !marks.empty()) out += ' ' + element("small", marks);
     out += "</th>";
     for (std::size_t column = 0; column < cells[i].size(); ++column) {
       out += html_cell(cells[i][column], intervals[column]);
@@ -86,7 +84,7 @@ bool is_empty(const ReportSection& section) {
 
 std::string html_section(const ReportSection& section, const std::string& id, std::vector<std::string>& ids) {
   std::string out = "<section id=\"" + id + "\">\n" + element("h2", section.title) + '\n';
-  out += html_paragraphs(section.text);
+  out += html_paragraphs(section.text) + html_paragraphs(section.notes);
   if (!section.command.empty()) out += "<p class=\"command\">Made by " + element("code", section.command) + "</p>\n";
   if (!section.missing.empty()) {
     out += "<p class=\"missing\"><strong>Not here:</strong> " + escaped_html(section.missing) + "</p>\n";
@@ -111,14 +109,17 @@ std::string contents(const PaperReport& report, const std::vector<std::string>& 
   return out + "</ol>\n</nav>\n";
 }
 
-// What bold and brackets mean, where there are any.
-std::string how_to_read(const PaperReport& report) {
-  const bool tables = std::any_of(report.sections.begin(), report.sections.end(),
-                                  [](const ReportSection& section) { return !section.tables.empty(); });
-  if (!tables) return {};
-  return "<p class=\"read\">In the tables the best value of a column is bold: the lowest where the column has a "
-         "\u2193, the "
-         "highest where it has an \u2191. Brackets hold the 95 % interval, and - stands for what is missing.</p>\n";
+// How the tables are read, and the words in them.
+std::string html_head(const PaperReport& report) {
+  std::string out;
+  if (std::string text = how_to_read(report); !text.empty()) {
+    text += " An arrow at a column says whether lower (\u2193) or higher (\u2191) is better.";
+    out += html_paragraphs(text, "read");
+  }
+  if (report.terms.empty()) return out;
+  out += "<dl class=\"read\">\n";
+  for (const auto& [term, meaning] : report.terms) out += element("dt", term) + element("dd", meaning) + '\n';
+  return out + "</dl>\n";
 }
 
 }  // namespace
@@ -132,7 +133,7 @@ std::string report_html(const PaperReport& report) {
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n" +
       element("title", report.title) + "\n<style>" + report_style() + "</style>\n</head>\n<body>\n<header>\n" +
       element("h1", report.title) + '\n' + html_paragraphs(report.made_with) + contents(report, section_ids) +
-      how_to_read(report) + "</header>\n<main>\n";
+      html_head(report) + "</header>\n<main>\n";
   for (std::size_t i = 0; i < report.sections.size(); ++i) out += html_section(report.sections[i], section_ids[i], ids);
   return out + "</main>\n</body>\n</html>\n";
 }

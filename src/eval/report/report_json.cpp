@@ -53,6 +53,7 @@ Json table_json(const ReportTable& table) {
     rows.push_back({{"name", row.name},
                     {"ours", row.ours},
                     {"note", row.note},
+                    {"bound", row.bound},
                     {"values", values},
                     {"intervals", intervals_json(row.intervals)}});
   }
@@ -96,9 +97,9 @@ Json picture_json(const ReportPicture& picture, bool whole) {
 }
 
 Json json_of(const ReportSection& section, bool whole_pictures) {
-  Json out = {{"id", section.id},           {"title", section.title},     {"text", section.text},
-              {"command", section.command}, {"missing", section.missing}, {"tables", Json::array()},
-              {"plots", Json::array()},     {"pictures", Json::array()}};
+  Json out = {{"id", section.id},        {"title", section.title},     {"text", section.text},
+              {"notes", section.notes},  {"command", section.command}, {"missing", section.missing},
+              {"tables", Json::array()}, {"plots", Json::array()},     {"pictures", Json::array()}};
   for (const ReportTable& table : section.tables) out["tables"].push_back(table_json(table));
   for (const ReportPlot& plot : section.plots) out["plots"].push_back(plot_json(plot));
   for (const ReportPicture& picture : section.pictures)
@@ -145,7 +146,8 @@ ReportTable table_from(const Json& json) {
     out.better.push_back(static_cast<Better>(index_of(kBetterNames, name.get<std::string>())));
   }
   for (const Json& row : json.at("rows")) {
-    ReportTable::Row one{.name = row.at("name"), .ours = row.at("ours"), .note = row.at("note")};
+    ReportTable::Row one{
+        .name = row.at("name"), .ours = row.at("ours"), .note = row.at("note"), .bound = row.value("bound", false)};
     for (const Json& value : row.at("values")) one.values.push_back(number_of(value));
     one.intervals = intervals_of(row.at("intervals"));
     out.rows.push_back(std::move(one));
@@ -186,6 +188,7 @@ ReportSection section_from(const Json& json) {
   ReportSection out{.id = json.at("id"),
                     .title = json.at("title"),
                     .text = json.at("text"),
+                    .notes = json.value("notes", ""),
                     .command = json.at("command"),
                     .missing = json.at("missing")};
   for (const Json& table : json.at("tables")) out.tables.push_back(table_from(table));
@@ -199,13 +202,17 @@ ReportSection section_from(const Json& json) {
 std::string report_json(const PaperReport& report) {
   Json sections = Json::array();
   for (const ReportSection& section : report.sections) sections.push_back(json_of(section, false));
-  return dumped({{"title", report.title}, {"made_with", report.made_with}, {"sections", sections}});
+  Json terms = Json::array();
+  for (const auto& [term, meaning] : report.terms) terms.push_back({{"term", term}, {"meaning", meaning}});
+  return dumped({{"title", report.title}, {"made_with", report.made_with}, {"terms", terms}, {"sections", sections}});
 }
 
 PaperReport report_from_json(const std::string& text) {
   try {
     const Json json = Json::parse(text);
     PaperReport report{.title = json.at("title"), .made_with = json.at("made_with")};
+    for (const Json& term : json.value("terms", Json::array()))
+      report.terms.emplace_back(term.at("term").get<std::string>(), term.at("meaning").get<std::string>());
     for (const Json& section : json.at("sections")) report.sections.push_back(section_from(section));
     return report;
   } catch (const Json::exception& problem) {

@@ -29,6 +29,14 @@ Counts counts_of(const ScoreTable& scores, const std::string& metric, const Sele
   return {finite, values.size() - finite};
 }
 
+// Those that were asked for the metric at all, in the order of the table.
+std::vector<std::string> methods_with(const ScoreTable& scores, const std::string& metric) {
+  std::vector<std::string> methods = scores.methods();
+  std::erase_if(methods,
+                [&](const std::string& method) { return scores.known_values(metric, {.method = method}).empty(); });
+  return methods;
+}
+
 // The number of samples beside the label where it is the same for all methods, else beside each method's name; there too what is missing.
 void tell_counts(ReportTable& table, const std::vector<std::vector<Counts>>& counts) {
   const auto same_total = [](const Counts& a, const Counts& b) { return a.finite + a.missing == b.finite + b.missing; };
@@ -55,7 +63,7 @@ struct CommonMeans {
   std::size_t samples = 0;
 };
 std::optional<CommonMeans> common_means(const ScoreTable& scores, const std::string& metric) {
-  const std::vector<std::string> methods = scores.methods();
+  const std::vector<std::string> methods = methods_with(scores, metric);
   std::map<std::string, std::map<std::string, double>> answers;  // of each method
   std::set<std::string> samples;
   for (const ScoreRow& row : scores.rows()) {
@@ -90,7 +98,13 @@ ReportPlot values_plot(const ScoreTable& scores, const std::string& metric, cons
 
 }  // namespace
 
-std::string common_column(std::size_t samples) { return "mean of the " + std::to_string(samples) + " all have"; }
+std::string common_column(std::size_t samples) {
+  return "mean of the " + std::to_string(samples) + " that all of this run have";
+}
+
+bool is_common_column(const std::string& column) {
+  return column.starts_with("mean of the ") && column.ends_with(" have");
+}
 
 ReportTable table_of(const ScoreTable& scores, const std::string& metric, const std::string& title, int decimals,
                      const std::set<std::string>& ours, Better better) {
@@ -98,7 +112,7 @@ ReportTable table_of(const ScoreTable& scores, const std::string& metric, const 
                     .columns = {"mean", "median", "n"},
                     .decimals = {decimals, decimals, 0},
                     .better = {better, better, Better::kNeither}};
-  for (const std::string& method : scores.methods()) {
+  for (const std::string& method : methods_with(scores, metric)) {
     const Summary s = scores.summary(metric, {.method = method});
     const Counts counts = counts_of(scores, metric, {.method = method});
     table.rows.push_back({.name = method,
@@ -119,7 +133,7 @@ ReportTable table_of(const ScoreTable& scores, const std::string& metric, const 
 ReportTable table_by_group(const ScoreTable& scores, const std::string& metric, const std::string& group,
                            const std::string& title, int decimals, const std::set<std::string>& ours, Better better) {
   const std::vector<std::string> labels = scores.labels(group);
-  const std::vector<std::string> methods = scores.methods();
+  const std::vector<std::string> methods = methods_with(scores, metric);
   ReportTable table{.title = title,
                     .columns = labels,
                     .decimals = std::vector<int>(labels.size(), decimals),
@@ -142,6 +156,29 @@ ReportTable table_by_group(const ScoreTable& scores, const std::string& metric, 
     if (!alike) table.better[i] = Better::kNeither;
   }
   tell_counts(table, counts);
+  return table;
+}
+
+ReportTable table_of_metrics(const ScoreTable& scores, const std::vector<std::pair<std::string, std::string>>& metrics,
+                             const std::string& title, int decimals, const std::set<std::string>& ours, Better better) {
+  ReportTable table{.title = title,
+                    .columns = {},
+                    .decimals = std::vector<int>(metrics.size(), decimals),
+                    .better = std::vector<Better>(metrics.size(), better)};
+  for (const auto& metric : metrics) table.columns.push_back(metric.second);
+  for (const std::string& method : scores.methods()) {
+    ReportTable::Row row{.name = method, .ours = ours.contains(method)};
+    std::size_t missing = 0;
+    for (std::size_t i = 0; i < metrics.size(); ++i) {
+      const Summary s = scores.summary(metrics[i].first, {.method = method});
+      row.values.push_back(known(s.mean));
+      row.intervals.push_back(mean_interval(s));
+      missing = std::max(missing, s.missing);
+      if (s.missing > 0 && s.count > 0) table.better[i] = Better::kNeither;
+    }
+    if (missing > 0) row.note = std::to_string(missing) + " missing";
+    table.rows.push_back(std::move(row));
+  }
   return table;
 }
 

@@ -29,7 +29,8 @@ std::string best_of(const ReportTable& table, std::size_t column) {
   if (better == Better::kNeither) return {};
   std::vector<double> values;
   for (const ReportTable::Row& row : table.rows) {
-    if (const std::optional<double> value = value_at(row, column)) values.push_back(*value);
+    const std::optional<double> value = row.bound ? std::nullopt : value_at(row, column);
+    if (value) values.push_back(*value);
   }
   if (values.size() < 2) return {};
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
@@ -71,7 +72,7 @@ std::vector<std::vector<TableCell>> table_cells(const ReportTable& table) {
       TableCell& cell = out[i][column];
       const std::optional<double> value = value_at(table.rows[i], column);
       cell.value = value ? shown(*value, decimals) : "-";
-      cell.best = value && cell.value == best;
+      cell.best = value && !table.rows[i].bound && cell.value == best;
       if (const auto interval = interval_at(table.rows[i], column)) {
         cell.interval = '[' + shown(interval->first, decimals) + ", " + shown(interval->second, decimals) + ']';
       }
