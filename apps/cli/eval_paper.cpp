@@ -8,6 +8,7 @@
 #include "faceprobe/synth/shard.h"
 #include "paper/plan.h"
 #include "paper/print_pdf.h"
+#include "paper/report_notes.h"
 #include "paper/section_cache.h"
 #include "progress.h"
 
@@ -64,7 +65,8 @@ void require_data(const PaperPlan& plan) {
 
 // What was measured, without anybody's folders.
 std::string made_with(const PaperPlan& plan) {
-  if (!plan.parts.empty()) return fmt::format("Faceprobe {}, parts {}.", kVersion, fmt::join(plan.parts, ", "));
+  if (!plan.parts.empty())
+    return fmt::format("Faceprobe {}; parts measured: {}.", kVersion, fmt::join(plan.parts, ", "));
   const auto of = [](const std::filesystem::path& faces, int wanted) {
     return std::min(wanted, synth::ShardReader(faces).sample_count());
   };
@@ -90,8 +92,9 @@ int run(PaperPlan plan) {
     std::move(sections.begin(), sections.end(), std::back_inserter(report.sections));
     spdlog::info("part {} of {}, {}: done", i + 1, kParts.size(), kParts[i].name);
   }
+  make_readable(report);  // its rows are named as those of the earlier report are, once that is read
   if (!plan.earlier.empty()) {
-    if (!plan.parts.empty()) report.made_with += " What else there is: " + earlier.made_with;
+    if (!plan.parts.empty()) report.made_with += "\n\nThe other parts are from an earlier report: " + earlier.made_with;
     const std::set<std::string> taken = eval::add_earlier_rows(report, earlier);
     for (const std::string& title : eval::add_earlier_sections(report, earlier))
       spdlog::info("'{}' is from {}", title, plan.earlier.string());
@@ -101,6 +104,7 @@ int run(PaperPlan plan) {
     } else {
       spdlog::info("rows of {} methods are from {}", taken.size(), plan.earlier.string());
     }
+    make_readable(report);
   }
   const std::filesystem::path html = plan.output / "report.html";
   io::write_file_atomically(html, eval::report_html(report));

@@ -3,6 +3,7 @@
 #include "faceprobe/eval/earlier_rows.h"
 #include "faceprobe/io/data_files.h"
 #include "paper/headlines.h"
+#include "paper/report_notes.h"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -27,6 +28,7 @@ int run(const ResultsOptions& options) {
     const eval::PaperReport earlier = read_report(options.earlier);
     eval::add_earlier_rows(report, earlier);
     eval::add_earlier_sections(report, earlier);
+    make_readable(report);
   }
   fmt::print("{}", options.headlines ? headlines(report)
                    : options.json    ? eval::report_json(report)
@@ -38,7 +40,9 @@ int run(const ResultsOptions& options) {
 
 eval::PaperReport read_report(const std::filesystem::path& json) {
   constexpr std::int64_t kMostBytes = std::int64_t{1} << 28;
-  return eval::report_from_json(io::read_text(json, kMostBytes));
+  eval::PaperReport report = eval::report_from_json(io::read_text(json, kMostBytes));
+  make_readable(report);
+  return report;
 }
 
 CLI::App* add_eval_results(CLI::App& eval, Action& action) {

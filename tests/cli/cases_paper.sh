@@ -30,7 +30,7 @@ case_eval_paper() {
   cmp first.json report/report.json || fail "the second time it measures something else"
 
   # Rows of an earlier report, where its photos were the same.
-  sed 's/"name": "tan"/"name": "somebody"/' first.json >earlier.json
+  sed 's/"name": "li 2017, lite"/"name": "somebody"/' first.json >earlier.json
   expect_exit 0 "${arguments[@]}" --earlier earlier.json
   grep -q "^| somebody (.*earlier) |" report/report.md || fail "no row from the earlier report"
   expect_exit 0 "${arguments[@]}" --earlier first.json

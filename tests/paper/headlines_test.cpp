@@ -44,6 +44,21 @@ TEST(Headlines, TakeWhatAllAnswered) {
   EXPECT_NE(headlines(report).find("| 25.0 | 52.0 (ambient) |\n"), std::string::npos) << headlines(report);
 }
 
+TEST(Headlines, BoundsAreNoRivals) {
+  const std::string text = headlines(with_rows({{.name = "transport", .values = {28, 23, 97}, .ours = true},
+                                                {.name = "told the answer", .values = {3, 1, 97}, .bound = true},
+                                                {.name = "ambient", .values = {52, 1, 97}}}));
+  EXPECT_NE(text.find("52.0 (ambient) |"), std::string::npos) << text;
+}
+
+TEST(Headlines, SayWhatAnEarlierVersionMeasured) {
+  eval::PaperReport report = with_rows({{.name = "transport", .values = {28, 23, 97}, .ours = true},
+                                        {.name = "legendre", .values = {45, 1, 97}, .note = "2 missing, earlier"}});
+  EXPECT_NE(headlines(report).find("| 28.0 | 45.0 (legendre, earlier) |\n"), std::string::npos) << headlines(report);
+  report.sections[0].text = "Photos.\n\nThese figures are an earlier version's.";
+  EXPECT_NE(headlines(report).find("97 synthetic photos (both by an earlier version) | 28.0"), std::string::npos);
+}
+
 TEST(Headlines, NeedBothAndSaySo) {
   EXPECT_THROW(headlines({.title = "T"}), Error);
   EXPECT_THROW(headlines(with_rows({{.name = "transport", .values = {28}, .ours = true}})), Error);

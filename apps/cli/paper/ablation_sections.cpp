@@ -22,9 +22,10 @@ Sections ablation_sections(const PaperPlan& plan) {
                     table_of(scores.table, "glossy", "Glossy sphere, RMSE of 255", 1, ours)};
   if (scores.table.metrics().contains("main_light"))
     section.tables.push_back(table_of(scores.table, "main_light", "Main light, degrees", 1, ours));
-  section.tables.push_back(table_by_group(scores.table, "diffuse", "tone", "Diffuse sphere by skin tone", 1, ours));
   section.tables.push_back(
-      table_by_group(scores.table, "diffuse", "turn", "Diffuse sphere by turn of the head, degrees", 1, ours));
+      table_by_group(scores.table, "diffuse", "tone", "Diffuse sphere, RMSE of 255, by skin tone", 1, ours));
+  section.tables.push_back(table_by_group(scores.table, "diffuse", "turn",
+                                          "Diffuse sphere, RMSE of 255, by turn of the head, degrees", 1, ours));
   section.plots = {bars_of(scores.table, "diffuse", "Diffuse sphere", "RMSE of 255", ours)};
   return {section};
 }

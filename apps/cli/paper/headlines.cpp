@@ -1,6 +1,8 @@
 #include "paper/headlines.h"
 
 #include "faceprobe/core/error.h"
+#include "faceprobe/eval/earlier_rows.h"
+#include "paper/report_names.h"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -32,24 +34,26 @@ constexpr std::array kHeadlines = {
              "direction_london", "Strongest light, degrees from the nearest true one", "median", 1},
 };
 
-// Beginnings of the names of rows that are no rivals: ours by another way, or told a part of the answer. The paper's solver and network are some.
-constexpr std::array<std::string_view, 5> kNoRivals = {"transport", "net, finetuned", "all layers", "truth in",
-                                                       "normals known"};
+// Beginnings of the names of rows that are ours by another way, and no rivals. The paper's solver and network are some.
+constexpr std::array<std::string_view, 2> kNoRivals = {"transport", "net, finetuned"};
 
-const ReportTable* table_of(const eval::PaperReport& report, const Headline& line) {
+struct Place {
+  const eval::ReportSection* section = nullptr;
+  const ReportTable* table = nullptr;
+};
+Place place_of(const eval::PaperReport& report, const Headline& line) {
   for (const eval::ReportSection& section : report.sections) {
     if (section.id != line.section) continue;
     for (const ReportTable& table : section.tables) {
-      if (table.title == line.table) return &table;
+      if (table.title == line.table) return {&section, &table};
     }
   }
-  return nullptr;
+  return {};
 }
 
 // Of what all answered, where the table has that.
 std::optional<double> value_of(const ReportTable& table, const ReportTable::Row& row, std::string_view column) {
-  const auto common = std::find_if(table.columns.begin(), table.columns.end(),
-                                   [](const std::string& name) { return name.ends_with(" all have"); });
+  const auto common = std::find_if(table.columns.begin(), table.columns.end(), &eval::is_common_column);
   const bool replaced = column == "mean" && common != table.columns.end();
   const auto found = replaced ? common : std::find(table.columns.begin(), table.columns.end(), column);
   const auto index = static_cast<std::size_t>(found - table.columns.begin());
@@ -57,12 +61,14 @@ std::optional<double> value_of(const ReportTable& table, const ReportTable::Row&
 }
 
 bool is_rival(const ReportTable::Row& row) {
-  return !row.ours && std::none_of(kNoRivals.begin(), kNoRivals.end(),
-                                   [&](std::string_view name) { return row.name.starts_with(name); });
+  return !row.ours && !row.bound && !is_bound(row.name) &&
+         std::none_of(kNoRivals.begin(), kNoRivals.end(),
+                      [&](std::string_view name) { return row.name.starts_with(name); });
 }
 
 // Empty where the report lacks one of the two.
-std::string line_of(const ReportTable& table, const Headline& line) {
+std::string line_of(const Place& place, const Headline& line) {
+  const ReportTable& table = *place.table;
   std::optional<double> ours, photos, best;
   std::string rival;
   for (const ReportTable::Row& row : table.rows) {
@@ -73,12 +79,13 @@ std::string line_of(const ReportTable& table, const Headline& line) {
       photos = value_of(table, row, "n");
     } else if (is_rival(row) && (!best || *value < *best)) {
       best = value;
-      rival = row.name;
+      rival = row.name + (eval::is_earlier(row) ? ", earlier" : "");
     }
   }
   if (!ours || !best) return {};
-  return fmt::format("| {} | {:.{}f} | {:.{}f} ({}) |\n", fmt::format(fmt::runtime(line.what), photos.value_or(0)),
-                     *ours, line.decimals, *best, line.decimals, rival);
+  return fmt::format("| {}{} | {:.{}f} | {:.{}f} ({}) |\n", fmt::format(fmt::runtime(line.what), photos.value_or(0)),
+                     eval::is_earlier(*place.section) ? " (both by an earlier version)" : "", *ours, line.decimals,
+                     *best, line.decimals, rival);
 }
 
 }  // namespace
@@ -86,7 +93,7 @@ std::string line_of(const ReportTable& table, const Headline& line) {
 std::string headlines(const eval::PaperReport& report) {
   std::string lines;
   for (const Headline& line : kHeadlines) {
-    if (const ReportTable* table = table_of(report, line)) lines += line_of(*table, line);
+    if (const Place place = place_of(report, line); place.table != nullptr) lines += line_of(place, line);
   }
   if (lines.empty()) throw Error(ExitCode::kInput, "The report has none of the figures that a first page quotes.");
   return "| measured | Faceprobe | the best of the others |\n|---|---|---|\n" + lines;

@@ -2,6 +2,9 @@
 #include "highlight_methods.h"
 #include "paper/plan.h"
 #include "paper/published.h"
+#include "paper/report_names.h"
+
+#include <utility>
 
 namespace faceprobe::cli {
 
@@ -60,12 +63,12 @@ eval::ReportSection colour_section(const PaperPlan& plan, const synth::ShardRead
                     table_of(scores, "ssim_whole", "SSIM on the whole crop", 3, kOurs, higher),
                     table_by_group(scores, "rmse_skin", "tone", "RMSE on the skin by tone", 2, kOurs),
                     table_by_group(scores, "rmse_skin", "clipped", "RMSE on the skin by clipped share", 2, kOurs),
-                    table_by_group(scores, "rmse_skin", "size", "RMSE on the skin by its share of the crop", 2, kOurs),
-                    published_highlights()};
+                    table_by_group(scores, "rmse_skin", "size", "RMSE on the skin by its share of the crop", 2, kOurs)};
+  for (eval::ReportTable& published : published_highlights()) section.tables.push_back(std::move(published));
   section.plots = {histogram_of(scores, "rmse_skin", "Photos by RMSE on the skin", "RMSE, 0-255", kOurs),
                    histogram_of(scores, "ssim_skin", "Photos by SSIM on the skin", "SSIM", kOurs)};
   std::string columns = "Columns: photo, true highlight, ";
-  for (const eval::HighlightMethod& method : methods.all) columns += method.name + ", ";
+  for (const eval::HighlightMethod& method : methods.all) columns += row_name(method.name) + ", ";
   columns.replace(columns.size() - 2, 2, ". Highlights are drawn twice as bright.");
   section.pictures = {
       {.title = "Layers", .caption = columns, .picture = draw_highlights(faces, methods.all, plan.picture_rows())}};

@@ -58,7 +58,8 @@ ByteImage objects_sheet(const std::vector<SheetRow>& rows) {
 // One picture a column, and their mean; after each separator its published figures where the set has them.
 eval::ReportTable object_table(const eval::ScoreTable& scores, const std::string& set, const std::string& metric,
                                const std::string& title, int decimals, Better better) {
-  eval::ReportTable table{.title = title + ": " + set, .columns = {}};
+  eval::ReportTable table{.title = title + ": " + (set == "shen" ? "Shen & Zheng's objects" : "Grosse's objects"),
+                          .columns = {}};
   std::map<std::string, std::size_t> column;
   for (const eval::ScoreRow& row : scores.rows()) {
     if (row.groups.at("set") != set || !column.emplace(row.groups.at("picture"), column.size()).second) continue;
@@ -91,8 +92,9 @@ Sections object_sections(const PaperPlan& plan) {
       .id = "objects",
       .title = "Highlight layers of objects",
       .text =
-          "Objects whose diffuse layer was photographed through polarisers: shen (Shen & Zheng 2013) and mit (Grosse "
-          "et al. 2009). Code values are taken as they are, as in the published figures, which are those of the SIHR "
+          "Objects whose diffuse layer was photographed through polarisers: those of Shen & Zheng 2013 and of Grosse "
+          "et "
+          "al. 2009 (MIT). Code values are taken as they are, as in the published figures, which are those of the SIHR "
           "collection: they tell whether our classical separators do what theirs do. Everything counts, the "
           "background too. The black layer takes the whole picture for diffuse.\n\n"
           "Our network needs a face and has no row here.",
