@@ -112,6 +112,10 @@ void add_finetune(CLI::App& program, Action& action) {
       ->add_option("--max-expression", options->photos.max_expression,
                    "error of the rigid mean face per width of the face, above which a photo is left out")
       ->capture_default_str();
+  command
+      ->add_option("--max-light-colours", options->photos.max_light_colours,
+                   "spread of chromaticity of the light on the skin, above which a photo is left out")
+      ->capture_default_str();
   command->add_flag("--calibrate", options->photos.calibrate,
                     "decode each photo by the response curve that its skin tells of, not as sRGB");
   command->add_option("--synthetic-batch", options->config.synthetic_batch, "synthetic faces in a step")

@@ -215,8 +215,8 @@ class Finetuning {
     set_learning_rate(optimizer_, run_.config.learning_rate * half_cosine(done, kFinalShare));
   }
 
-  // What the network took off these photos before it was finetuned.
-  std::vector<double> energies_before(const PersonSet& person, const std::vector<int>& chosen,
+  // What the network made of these photos before it was finetuned.
+  LayerMeasures measures_before(const PersonSet& person, const std::vector<int>& chosen,
                                       const PersonPhotos& group) const {
     const torch::NoGradGuard no_gradients;
     std::vector<Image> layers;
@@ -224,7 +224,7 @@ class Finetuning {
       const auto i = static_cast<std::size_t>(number);
       layers.push_back(layer_of(show(before_, person, i, multiple_), *person.photos[i]));
     }
-    return group.loss(layers).energies;
+    return group.loss(layers).measures;
   }
 
   bool add_people(std::int64_t step, FinetuneRow& sum) {
@@ -240,7 +240,7 @@ class Finetuning {
       shown.push_back(show(model_, person, i, multiple_));
       layers.push_back(layer_of(shown.back(), *person.photos[i]));
     }
-    const PersonLoss loss = group->loss(layers, energies_before(person, chosen, *group));
+    const PersonLoss loss = group->loss(layers, measures_before(person, chosen, *group));
     for (std::size_t k = 0; k < shown.size(); ++k) {
       shown[k].highlight.backward(run_.config.weight * padded_gradient(loss.by_highlight[k], shown[k].highlight));
     }

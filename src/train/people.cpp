@@ -9,6 +9,7 @@
 #include "faceprobe/synth/shard.h"
 #include "train/finetune_guards.h"
 #include "train/histogram_transfer.h"
+#include "train/light_colours.h"
 #include "train/person_loss.h"
 #include "train/radiometric.h"
 
@@ -47,11 +48,18 @@ std::map<std::string, std::vector<fs::path>> photos_by_person(const fs::path& fo
 }
 
 struct Candidate {
+  std::string name;
   PersonPhoto photo;
+  SquarePhoto square;  // the photo as it was taken
+  PhotoMeasures measures;
   ByteImage mask;
   Image mesh;
   bool calibrated = false;
 };
+
+PhotoLimits limits_of(const PeopleOptions& options) {
+  return {.max_reprojection_share = options.max_expression, .max_light_colour_spread = options.max_light_colours};
+}
 
 class Reader {
  public:
@@ -128,12 +136,14 @@ class Reader {
       landmarks.photo_px.row(i) = at.cast<float>().transpose();
     }
     out.photo.warp = face_warp(square_, landmarks, {crop.width, crop.height});
-    why = why_unsuitable(measure(out, face), {.max_reprojection_share = options_.max_expression});
+    measure(out, face);
+    why = why_unsuitable(out.measures, limits_of(options_));
     if (!why.empty()) return std::nullopt;
     return out;
   }
 
-  PhotoMeasures measure(const Candidate& candidate, const face::Face& face) const {
+  // All but the colours of the light, which the person's other photos tell of.
+  void measure(Candidate& candidate, const face::Face& face) const {
     PhotoMasks masks;
     masks.skin = ByteImage(regions_.width(), regions_.height(), 1);
     for (std::size_t i = 0; i < regions_.pixel_count(); ++i)
@@ -144,10 +154,16 @@ class Reader {
       clipped.data()[i] = candidate.photo.clipped.data()[i] != 0 ? 1.0F : 0.0F;
     const Image flat = sample(clipped, candidate.photo.warp);
     masks.clipped = ByteImage(flat.width(), flat.height(), 1);
-    for (std::size_t i = 0; i < flat.pixel_count(); ++i) masks.clipped.data()[i] = flat.data()[i] > 0 ? 1 : 0;
-    PhotoMeasures measures = measure_photo(sample(candidate.photo.linear, candidate.photo.warp), masks);
-    measures.reprojection_share = face.reprojection_rms_px / static_cast<double>(std::max(1.0F, face.box.width));
-    return measures;
+    SquarePhoto& square = candidate.square;
+    square = {sample(candidate.photo.linear, candidate.photo.warp), ByteImage(flat.width(), flat.height(), 1)};
+    for (std::size_t i = 0; i < flat.pixel_count(); ++i) {
+      masks.clipped.data()[i] = flat.data()[i] > 0 ? 1 : 0;
+      const bool usable = masks.skin.data()[i] != 0 && masks.seen.data()[i] != 0 && masks.clipped.data()[i] == 0;
+      square.usable.data()[i] = usable ? 1 : 0;
+    }
+    candidate.measures = measure_photo(square.linear, masks);
+    candidate.measures.reprojection_share =
+        face.reprojection_rms_px / static_cast<double>(std::max(1.0F, face.box.width));
   }
 
   PeopleOptions options_;
@@ -157,6 +173,25 @@ class Reader {
   FaceTemplate square_;
   ByteImage regions_;
 };
+
+// Takes out the photo whose light has the most colours, until what is left agrees: one such photo is part of the mean that the others are
+// measured by. `leave_out`: its name and why.
+void leave_out_mixed_light(std::vector<Candidate>& photos, const PeopleOptions& options,
+                           const std::function<void(const std::string&, const std::string&)>& leave_out) {
+  while (photos.size() > 1) {
+    std::vector<SquarePhoto> squares;
+    squares.reserve(photos.size());
+    for (const Candidate& photo : photos) squares.push_back(photo.square);
+    const std::vector<double> spreads = light_colour_spreads(squares);
+    const auto worst = std::ranges::max_element(spreads) - spreads.begin();
+    Candidate& photo = photos[static_cast<std::size_t>(worst)];
+    photo.measures.light_colour_spread = spreads[static_cast<std::size_t>(worst)];
+    const std::string why = why_unsuitable(photo.measures, limits_of(options));
+    if (why.empty()) return;
+    leave_out(photo.name, why);
+    photos.erase(photos.begin() + worst);
+  }
+}
 
 // Colours of the first photo for all of them, by the skin alone.
 void match_colours(std::vector<Candidate>& photos) {
@@ -173,6 +208,8 @@ std::string PeopleOptions::validate() const {
   if (square_px < 16 || square_px > 512) return "square_px is " + std::to_string(square_px) + "; allowed is 16 to 512.";
   if (!(max_expression > 0 && max_expression <= 1))
     return "max_expression is " + std::to_string(max_expression) + "; allowed is above 0, to 1.";
+  if (!(max_light_colours > 0 && max_light_colours <= 1))
+    return "max_light_colours is " + std::to_string(max_light_colours) + "; allowed is above 0, to 1.";
   if (least_photos < 2 || most_photos < least_photos)
     return "A person needs two photos or more, and most_photos not below least_photos.";
   return {};
@@ -192,20 +229,25 @@ std::optional<PersonSet> person_of(const std::string& name, const std::vector<Ph
                                    const std::function<void(const std::string&)>& progress) {
   PersonSet person{
       .name = name, .photos = {}, .masks = {}, .meshes = {}, .regions = reader.regions(), .left_out = {}, .calibrated = 0};
+  const auto leave_out = [&](const std::string& photo, const std::string& why) {
+    person.left_out.push_back(photo + ": " + why);
+    if (progress) progress(name + "/" + person.left_out.back());
+  };
   std::vector<Candidate> candidates;
   for (const PhotoSource& source : sources) {
     if (static_cast<int>(candidates.size()) == options.most_photos) break;
     std::string why;
     try {
-      if (std::optional<Candidate> candidate = reader.read(source.photo(), why))
+      if (std::optional<Candidate> candidate = reader.read(source.photo(), why)) {
+        candidate->name = source.name;
         candidates.push_back(std::move(*candidate));
+      }
     } catch (const Error& error) {
       why = error.what();
     }
-    if (why.empty()) continue;
-    person.left_out.push_back(source.name + ": " + why);
-    if (progress) progress(name + "/" + person.left_out.back());
+    if (!why.empty()) leave_out(source.name, why);
   }
+  leave_out_mixed_light(candidates, options, leave_out);
   person.calibrated =
       static_cast<int>(std::ranges::count_if(candidates, [](const Candidate& c) { return c.calibrated; }));
   if (progress) {

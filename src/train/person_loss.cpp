@@ -11,6 +11,8 @@ namespace faceprobe::train {
 namespace {
 
 constexpr double kLeastEnergy = 1e-3;  // a photo without highlights does not forbid them
+// Of chromaticity; a deviation of a thousandth is that of a photo's rounding to bytes. Skin without more has no colours to lose.
+constexpr double kLeastVariance = 1e-6;
 
 // Where a skin pixel of the square is seen, unclipped, by every photo.
 Image common_skin(const std::vector<PersonPhoto>& photos, const ByteImage& regions) {
@@ -40,6 +42,20 @@ void check(const std::vector<PersonPhoto>& photos, const ByteImage& regions) {
   }
 }
 
+void check(const LayerMeasures& trusted, std::size_t photos) {
+  for (const std::vector<double>* one : {&trusted.energies, &trusted.chroma_variances}) {
+    if (!one->empty() && one->size() != photos)
+      throw std::invalid_argument("One trusted number per photo is wanted, or none.");
+  }
+}
+
+// 0 when it is not known, or too small to be held to.
+double reference_variance(const LayerMeasures& trusted) {
+  if (trusted.chroma_variances.empty()) return 0;
+  const double least = *std::ranges::min_element(trusted.chroma_variances);
+  return least > kLeastVariance ? least : 0;
+}
+
 }  // namespace
 
 std::string PersonLossOptions::validate() const {
@@ -58,10 +74,9 @@ PersonPhotos::PersonPhotos(std::vector<PersonPhoto> photos, const ByteImage& reg
   for (const PersonPhoto& photo : photos_) flat_.push_back(matrix_from_picture(sample(photo.linear, photo.warp)));
 }
 
-PersonLoss PersonPhotos::loss(std::span<const Image> highlights, std::span<const double> trusted_energies) const {
+PersonLoss PersonPhotos::loss(std::span<const Image> highlights, const LayerMeasures& trusted) const {
   if (highlights.size() != photos_.size()) throw std::invalid_argument("One highlight layer per photo is wanted.");
-  if (!trusted_energies.empty() && trusted_energies.size() != photos_.size())
-    throw std::invalid_argument("One trusted energy per photo is wanted, or none.");
+  check(trusted, photos_.size());
   std::vector<Eigen::MatrixX3d> flat_highlight;
   Eigen::MatrixXd rows(static_cast<Eigen::Index>(photos_.size()), 2 * chromaticity_->pixels());
   for (std::size_t k = 0; k < photos_.size(); ++k) {
@@ -76,27 +91,31 @@ PersonLoss PersonPhotos::loss(std::span<const Image> highlights, std::span<const
   const Eigen::VectorXd mask = weight.cast<double>();
 
   const auto photo_count = static_cast<double>(photos_.size());
+  const double variance = reference_variance(trusted);
   PersonLoss out;
   out.residual = low_rank.value;
   for (std::size_t k = 0; k < photos_.size(); ++k) {
     // The diffuse layer is the photo less the highlight, hence the sign.
     Eigen::MatrixX3d by_flat =
         -chromaticity_->backward(flat_[k] - flat_highlight[k], low_rank.gradient.row(static_cast<Eigen::Index>(k)));
+    const auto guard_by = [&](const Penalty& guard) {
+      out.guards += options_.guard_weight * guard.value;
+      by_flat += options_.guard_weight * guard.gradient;
+    };
     if (options_.guard_weight > 0) {
-      for (const Penalty& guard :
-           {black_diffuse(flat_[k], flat_highlight[k], mask), coloured_highlight(flat_[k], flat_highlight[k], mask)}) {
-        out.guards += options_.guard_weight * guard.value;
-        by_flat += options_.guard_weight * guard.gradient;
-      }
+      guard_by(black_diffuse(flat_[k], flat_highlight[k], mask));
+      guard_by(coloured_highlight(flat_[k], flat_highlight[k], mask));
+      if (variance > 0) guard_by(one_colour_diffuse(flat_[k], flat_highlight[k], mask, variance));
     }
     const double energy = mask.dot(flat_highlight[k].rowwise().mean()) / pixels;
-    out.energies.push_back(energy);
+    out.measures.energies.push_back(energy);
+    out.measures.chroma_variances.push_back(chroma_variance(flat_[k] - flat_highlight[k], mask));
     out.energy += energy / photo_count;
-    if (!trusted_energies.empty() && options_.energy_weight > 0) {
-      const double trusted = std::max(trusted_energies[k], kLeastEnergy);
-      const double excess = energy / trusted - 1;
+    if (!trusted.energies.empty() && options_.energy_weight > 0) {
+      const double usual = std::max(trusted.energies[k], kLeastEnergy);
+      const double excess = energy / usual - 1;
       out.kept += options_.energy_weight * excess * excess / photo_count;
-      const double slope = 2 * options_.energy_weight * excess / trusted / photo_count;
+      const double slope = 2 * options_.energy_weight * excess / usual / photo_count;
       by_flat.colwise() += slope / (3 * pixels) * mask;
     }
     out.by_highlight.push_back(

@@ -29,11 +29,17 @@ struct PersonLossOptions {
   bool rank1 = true;  // the distance to rank one; false = the paper's second singular value
   // Of the chromaticity, in the square: what landmarks misplace is not to look like a highlight. The paper has none.
   float blur_sigma_px = 2.5F;
-  double guard_weight = 0.1;  // of each of the two guards of train/finetune_guards.h that one photo allows; 0 = none
+  double guard_weight = 0.1;  // of each guard of train/finetune_guards.h; 0 = none
   // Of the mean over photos of (energy / trusted energy - 1)^2: the shortest way to one chromaticity is a diffuse layer that fades.
   double energy_weight = 0.5;
 
   std::string validate() const;  // empty when usable
+};
+
+// Of layers that are known to be about right, such as the network's before finetuning; one number a photo. Empty = not known.
+struct LayerMeasures {
+  std::vector<double> energies;          // mean over pixels of the highlight's mean channel, in the square
+  std::vector<double> chroma_variances;  // of the diffuse layer there; chroma_variance() of train/finetune_guards.h
 };
 
 struct PersonLoss {
@@ -41,7 +47,7 @@ struct PersonLoss {
   double guards = 0;    // sum over the photos, weighted
   double energy =
       0;  // mean over photos and pixels of the highlight's mean channel, in the square: what must not run away
-  std::vector<double> energies;     // of each photo
+  LayerMeasures measures;           // of these layers
   double kept = 0;                  // penalty of energies that are not the trusted ones, weighted
   std::vector<Image> by_highlight;  // of residual + guards + kept; the size of each crop
 };
@@ -54,9 +60,10 @@ class PersonPhotos {
 
   // Skin that takes part, in pixels of the square.
   Eigen::Index pixels() const { return chromaticity_->pixels(); }
-  // Throws std::invalid_argument when a layer is not the size of its photo.
-  // `trusted_energies`: those of layers that are known to be about right, such as the network's before finetuning; empty = none.
-  PersonLoss loss(std::span<const Image> highlights, std::span<const double> trusted_energies = {}) const;
+  // Throws std::invalid_argument when a layer is not the size of its photo, or what is trusted not of as many photos. The guard against a
+  // diffuse layer of one colour needs trusted variances, and takes the least of them for all photos: they show the same skin, so what one
+  // of them has more is noise and highlight that was missed, which finetuning is free to take off.
+  PersonLoss loss(std::span<const Image> highlights, const LayerMeasures& trusted = {}) const;
 
  private:
   std::vector<PersonPhoto> photos_;

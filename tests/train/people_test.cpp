@@ -88,6 +88,31 @@ TEST_F(People, UnsuitablePhotosAreLeftOutWithTheReason) {
   EXPECT_NE(people[0].left_out[2].find("overexposed.png: "), std::string::npos) << people[0].left_out[2];
 }
 
+// A window to the left and a lamp to the right of the face, in one of four photos.
+TEST_F(People, SeveralLightColoursAreLeftOutWithTheReason) {
+  for (int i = 0; i < 4; ++i) put("collins/" + std::to_string(i) + ".png", encode_srgb(exposed(0.6F)));
+  Image mixed = exposed(0.6F);
+  for (int y = 0; y < mixed.height(); ++y) {
+    for (int x = 0; x < mixed.width(); ++x) {
+      const float lamp = static_cast<float>(std::clamp((x - 150) / 150.0, 0.0, 1.0));  // her face lies between
+      mixed(x, y, 0) *= 0.6F + 0.9F * lamp;
+      mixed(x, y, 2) *= 1.5F - 0.9F * lamp;
+    }
+  }
+  put("collins/mixed.png", encode_srgb(mixed));
+  std::string said;
+  const std::vector<PersonSet> people = load_people(folder_, {.least_photos = 4, .max_expression = kSmile},
+                                                    [&](const std::string& sentence) { said += sentence + "\n"; });
+  ASSERT_EQ(people.size(), 1U);
+  EXPECT_EQ(people[0].photos.size(), 4U);
+  ASSERT_EQ(people[0].left_out.size(), 1U);
+  EXPECT_NE(said.find("collins/mixed.png: The photo is left out because the lights have several colours"),
+            std::string::npos)
+      << said;
+  const PeopleOptions lenient{.least_photos = 4, .max_expression = kSmile, .max_light_colours = 0.5};
+  EXPECT_EQ(load_people(folder_, lenient)[0].photos.size(), 5U);
+}
+
 TEST_F(People, ASmileIsLeftOutByDefault) {
   put("collins/0.png", encode_srgb(portrait_));
   std::string said;

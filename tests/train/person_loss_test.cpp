@@ -4,6 +4,7 @@
 #include "train/small_person.h"
 
 #include <gtest/gtest.h>
+#include <algorithm>
 #include <stdexcept>
 
 namespace faceprobe::train {
@@ -36,12 +37,46 @@ TEST(PersonLoss, KeepsTheEnergyThatIsTrusted) {
   const PersonPhotos photos(person.photos, person.regions, {.energy_weight = 0.4});
   const PersonLoss right = photos.loss(person.highlights);
   EXPECT_EQ(right.kept, 0);  // nothing to compare with
-  EXPECT_EQ(photos.loss(person.highlights, right.energies).kept, 0);
+  EXPECT_EQ(photos.loss(person.highlights, right.measures).kept, 0);
   std::vector<Image> halves = person.highlights;
   for (Image& layer : halves)
     for (float& value : layer.values()) value *= 0.5F;
-  EXPECT_NEAR(photos.loss(halves, right.energies).kept, 0.4 * 0.25, 1e-6);  // layers are floats
-  EXPECT_NEAR(photos.loss(halves, right.energies).residual, photos.loss(halves).residual, 1e-12);
+  EXPECT_NEAR(photos.loss(halves, right.measures).kept, 0.4 * 0.25, 1e-6);  // layers are floats
+  EXPECT_NEAR(photos.loss(halves, right.measures).residual, photos.loss(halves).residual, 1e-12);
+}
+
+// Lips, beard and blush have gone into the highlight: rank one, and wrong.
+TEST(PersonLoss, ADiffuseLayerOfOneColourIsPenalised) {
+  const Person person = make_person();
+  const PersonLossOptions options{.guard_weight = 0.1};
+  const PersonPhotos photos(person.photos, person.regions, options);
+  const PersonLoss before = photos.loss(black(person));
+  std::vector<Image> taken;  // leaves as much of one colour as every channel of the photo has
+  for (const PersonPhoto& photo : person.photos) {
+    Image layer = photo.linear;
+    const float colour[3] = {0.6F, 0.4F, 0.3F};
+    for (std::size_t i = 0; i < layer.pixel_count(); ++i) {
+      float* pixel = layer.data() + 3 * i;
+      const float level = std::min({pixel[0] / colour[0], pixel[1] / colour[1], pixel[2] / colour[2]});
+      for (int c = 0; c < 3; ++c) pixel[c] -= level * colour[c];
+    }
+    taken.push_back(std::move(layer));
+  }
+  const PersonLoss unguarded = photos.loss(taken);
+  EXPECT_LT(unguarded.residual, 0.01 * before.residual) << "the low-rank loss likes it";
+  // Each photo's guard is 1 there but for floats' rounding, 1e-7 of a chromaticity whose deviation is 1e-2.
+  const LayerMeasures trusted{.energies = {}, .chroma_variances = before.measures.chroma_variances};
+  const PersonLoss guarded = photos.loss(taken, trusted);
+  EXPECT_NEAR(guarded.guards - unguarded.guards, 3 * options.guard_weight, 1e-3);
+  // Highlights that a network missed add to the variance that is trusted; to find them all is no step towards one colour.
+  EXPECT_EQ(photos.loss(person.highlights, trusted).guards, photos.loss(person.highlights).guards);
+  // One photo full of missed highlights does not set the measure for the others.
+  LayerMeasures odd = photos.loss(person.highlights).measures;
+  odd.energies.clear();
+  odd.chroma_variances[1] *= 100;
+  EXPECT_EQ(photos.loss(person.highlights, odd).guards, photos.loss(person.highlights).guards);
+  odd.chroma_variances = {1, 1};
+  EXPECT_THROW(photos.loss(taken, odd), std::invalid_argument);
 }
 
 // Along random directions in all layers at once, against central differences.
@@ -52,7 +87,9 @@ TEST(PersonLoss, GradientAgainstDifferences) {
     std::vector<Image> at = person.highlights;
     for (Image& layer : at)
       for (float& value : layer.values()) value *= 0.5F;
-    const std::vector<double> trusted(at.size(), 0.02);
+    // So many colours that the guard against one colour is awake: the true layers' variance is 2e-4.
+    const LayerMeasures trusted{.energies = std::vector<double>(at.size(), 0.02),
+                                .chroma_variances = std::vector<double>(at.size(), 1e-2)};
     const PersonLoss here = photos.loss(at, trusted);
     Random random({5});
     for (int trial = 0; trial < 3; ++trial) {

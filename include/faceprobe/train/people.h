@@ -25,6 +25,8 @@ struct PeopleOptions {
   int most_photos = 12;  // of one person
   // Error of the rigid mean face per width of the face, at most: a wide smile or an open mouth has more.
   double max_expression = 0.04;
+  // Spread of chromaticity of a photo's light, at most, told by the person's other photos: a window and a lamp have more.
+  double max_light_colours = 0.03;
   bool match_colours = true;  // by histogram transfer, as the paper does
   // Each photo is decoded by the response curve its skin tells of (train/radiometric.h), as sRGB where it tells of none.
   bool calibrate = false;
