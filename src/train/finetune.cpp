@@ -7,6 +7,7 @@
 #include "faceprobe/net/model_file.h"
 
 #include "net/padded_picture.h"
+#include "net/torch/mscr.h"
 #include "net/torch/picture_tensors.h"
 #include "net/torch/unet.h"
 #include "net/torch/weights.h"
@@ -31,9 +32,10 @@ constexpr Eigen::Index kLeastSkin = 200;        // pixels of the square that a g
 // As the weights were trained, so that what they know is kept by the loss they learnt it by.
 TrainConfig config_of(const std::filesystem::path& weights) {
   const net::ModelInfo info = net::read_model_info(weights);
-  if (info.architecture != net::kUNetArchitecture && info.architecture != net::kFaceArchitecture) {
+  if (info.architecture != net::kUNetArchitecture && info.architecture != net::kFaceArchitecture &&
+      info.architecture != net::kMscrArchitecture) {
     throw Error(ExitCode::kInput, weights.string() + " holds the network \"" + info.architecture +
-                                      "\"; what is finetuned is unet and face.");
+                                      "\"; what is finetuned is unet, face and mscr.");
   }
   TrainConfig config;
   if (const auto run = info.metadata.find("run"); run != info.metadata.end()) {
@@ -74,7 +76,10 @@ Batch batch_of(PaddedPhoto& padded) {
   return batch;
 }
 
-int multiple_of(const Model& model) { return std::dynamic_pointer_cast<net::UNetImpl>(model.module)->multiple(); }
+int multiple_of(const Model& model) {
+  const auto unet = std::dynamic_pointer_cast<net::UNetImpl>(model.module);
+  return unet ? unet->multiple() : net::kMscrMultiple;
+}
 
 struct Shown {
   PaddedPhoto padded;
@@ -128,6 +133,7 @@ class Finetuning {
         multiple_(multiple_of(model_)),
         optimizer_(model_.module->parameters(),
                    torch::optim::AdamWOptions(run.config.learning_rate).betas({0.9, 0.99}).weight_decay(0)) {
+    before_.module->eval();
     split_people();
     loss_.energy_weight = run.config.energy_weight;
     if (run.config.mode == "paper") loss_ = {.rank1 = false, .blur_sigma_px = 0, .guard_weight = 0, .energy_weight = 0};
@@ -190,6 +196,8 @@ class Finetuning {
 
   // False when the photos that were drawn have too little in common; the synthetic faces are learnt from all the same.
   bool one_step(std::int64_t step, FinetuneRow& sum) {
+    // Dropout, which the paper's network has, depends on the seed and the step alone.
+    torch::manual_seed(run_.config.seed ^ (static_cast<std::uint64_t>(step) << 20U));
     set_rate(step);
     optimizer_.zero_grad();
     const bool used = add_people(step, sum);
@@ -252,6 +260,7 @@ class Finetuning {
 
   PeopleScore score() {
     const torch::NoGradGuard no_gradients;
+    model_.module->eval();
     PeopleScore out;
     for (const PersonSet* person : held_out_) {
       PeopleScore own;
@@ -285,6 +294,7 @@ class Finetuning {
     out.residual /= out.people;
     out.energy /= out.people;
     out.untouched /= out.people;
+    model_.module->train();
     return out;
   }
 

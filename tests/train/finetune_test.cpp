@@ -9,6 +9,7 @@
 #include "train/small_person.h"
 
 #include <gtest/gtest.h>
+#include <cmath>
 #include <fstream>
 
 namespace faceprobe::train {
@@ -109,12 +110,31 @@ TEST_F(FinetuneTest, WhatCannotBeUsedIsRefused) {
   bad.config.mode = "wild";
   expect_error(ExitCode::kUsage, {"wild", "paper"}, [&] { finetune_highlight(bad, {}); });
   bad = run(4);
-  bad.start = folder_ / "mscr.safetensors";
-  net::save_weights(
-      *net::Mscr(net::MscrOptions{}), bad.start,
-      {{net::kArchitectureKey, net::kMscrArchitecture}, {net::kOptionsKey, net::options_json(net::MscrOptions{})}},
-      true);
-  expect_error(ExitCode::kInput, {"mscr", "unet"}, [&] { finetune_highlight(bad, {}); });
+  bad.start = folder_ / "shi.safetensors";
+  net::save_weights(*net::UNet(net::UNetOptions{.widths = {8, 16}}), bad.start,
+                    {{net::kArchitectureKey, net::kShiArchitecture}, {net::kOptionsKey, "{}"}}, true);
+  expect_error(ExitCode::kInput, {"shi", "unet, face and mscr"}, [&] { finetune_highlight(bad, {}); });
+}
+
+// The paper's own: its network, its loss. Two steps say that it runs, drops the same each time, and changes the weights.
+TEST_F(FinetuneTest, ThePapersNetworkIsFinetunedToo) {
+  FinetuneRun paper = run(4);
+  paper.start = folder_ / "mscr.safetensors";
+  torch::manual_seed(4);
+  const net::MscrOptions options;
+  net::save_weights(*net::Mscr(options), paper.start,
+                    {{net::kArchitectureKey, net::kMscrArchitecture}, {net::kOptionsKey, net::options_json(options)}},
+                    true);
+  paper.config.mode = "paper";
+  paper.config.steps = 2;
+  const FinetuneReport report = finetune_highlight(paper, {});
+  EXPECT_TRUE(report.finished);
+  EXPECT_TRUE(std::isfinite(report.after.residual));
+  EXPECT_NE(report.after.residual, report.before.residual);
+  const net::ModelInfo made = net::read_model_info(report.weights);
+  EXPECT_EQ(made.architecture, net::kMscrArchitecture);
+  paper.folder = folder_ / "again";
+  EXPECT_EQ(net::read_model_info(finetune_highlight(paper, {}).weights).sha256, made.sha256);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-// Finetunes the highlights of a network ("unet" or "face") on photos of people, without labels: paper Section 3.2. One person's skin has
+// Finetunes the highlights of a network ("unet", "face", or the paper's "mscr") on photos of people, without labels: paper Section 3.2. One person's skin has
 // the same chromaticity in every photo, so what the diffuse layers of several photos do not share is highlight that was missed, or skin
 // that was taken. Every step also trains on synthetic faces, so that the network keeps what it knows.
 //
@@ -76,7 +76,7 @@ struct FinetuneHooks {
   std::function<bool()> stop;                                            // asked at each step; true ends the run
 };
 
-// Throws Error: kInput (weights of another architecture than unet and face, too few people), kUsage, kOutput, kUnexpected (the loss is
+// Throws Error: kInput (weights of another architecture than those, too few people), kUsage, kOutput, kUnexpected (the loss is
 // no number).
 FinetuneReport finetune_highlight(const FinetuneRun& run, const FinetuneHooks& hooks);
 
