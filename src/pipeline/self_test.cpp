@@ -9,6 +9,7 @@
 #include "faceprobe/pipeline/estimate.h"
 #include "faceprobe/render/path_tracer.h"
 #include "faceprobe/render/shapes.h"
+#include "pipeline/model_card.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,6 +34,7 @@ Check checked(const std::string& name, const std::function<std::string()>& body)
 
 std::string model_file(const char* name) {
   const std::filesystem::path path = io::data_file(name);
+  if (const std::string problem = card_mismatch(path); !problem.empty()) throw Error(ExitCode::kModel, problem);
   return path.string() + ", " + std::to_string(std::filesystem::file_size(path) / 1024) + " KiB";
 }
 

@@ -9,6 +9,7 @@
 #include "net/torch/mscr.h"
 #include "net/torch/shi.h"
 #include "net/torch/unet.h"
+#include "train/channels_last.h"
 #include "train/face_loss.h"
 #include "train/loss.h"
 #include "train/shi_loss.h"
@@ -115,7 +116,9 @@ Model shi_model(const std::string& given) {
 
 bool finds_surface(const TrainConfig& config) { return config.architecture == net::kFaceArchitecture; }
 
-Model make_model(const TrainConfig& config) {
+namespace {
+
+Model model_as_drawn(const TrainConfig& config) {
   if (config.architecture == net::kMscrArchitecture) return mscr_model(config.network);
   if (config.architecture == net::kShiArchitecture) return shi_model(config.network);
   Model model = unet_model(config.network, finds_surface(config));
@@ -125,6 +128,14 @@ Model make_model(const TrainConfig& config) {
                                       "; this network takes multiples of " + std::to_string(unet->multiple()) + ".");
   }
   if (config.picture_px > 0) model.metadata[net::kPictureKey] = std::to_string(config.picture_px);
+  return model;
+}
+
+}  // namespace
+
+Model make_model(const TrainConfig& config) {
+  Model model = model_as_drawn(config);
+  to_channels_last(*model.module);
   return model;
 }
 

@@ -29,7 +29,8 @@ struct Model {
 
 bool finds_surface(const TrainConfig& config);
 
-// Throws Error(kUsage) for options that are not the architecture's own. Weights are drawn from torch's generator.
+// Throws Error(kUsage) for options that are not the architecture's own. Weights are drawn from torch's generator,
+// and lie channels-last.
 Model make_model(const TrainConfig& config);
 
 }  // namespace faceprobe::train

@@ -7,6 +7,7 @@
 #include "net/torch/torch_device.h"
 #include "net/torch/weights.h"
 #include "net/torch/widen.h"
+#include "train/channels_last.h"
 #include "train/checkpoint.h"
 #include "train/model.h"
 #include "train/schedule.h"
@@ -53,6 +54,7 @@ class Training {
     if (run.repeat_batch) return;
     io::create_folder(run.folder);
     load_checkpoint(checkpoint_path(), state_, *model_.module, optimizer_, average_, identity_);
+    to_channels_last(*model_.module);  // a checkpoint from before the weights were so
     io::write_file_atomically(run.folder / "config.json", to_json(run.config));
     if (!run.validation_data.empty()) {
       validation_data_.emplace(run.validation_data);
