@@ -39,7 +39,9 @@ std::string config_text(const std::string& path) {
 
 // What the trainers of light do not know would be passed over in silence.
 void refuse_options_of_highlight(const Options& options) {
-  const std::pair<bool, const char*> given[] = {{options.device != "auto", "--device"}, {options.json, "--json"}};
+  const std::pair<bool, const char*> given[] = {{options.device != "auto", "--device"}, {options.json, "--json"},
+                                               {options.run.stop_after != 0, "--stop-after"},
+                                               {options.run.workers != 0, "--workers"}};
   for (const auto& [is_given, name] : given) {
     if (is_given)
       throw Error(ExitCode::kUsage, "train " + options.net + " takes no " + name + "; highlight and face do.");
@@ -131,6 +133,16 @@ void add_train(CLI::App& program, Action& action) {
       ->type_name("{auto,cpu,cuda}")
       ->capture_default_str();
   command->add_option("--threads", options->run.threads, "threads; 0 = all processors")->capture_default_str();
+  command
+      ->add_option("--workers", options->run.workers,
+                   "threads that make samples ready; 0 = one beside a processor, more beside a card")
+      ->capture_default_str();
+  command
+      ->add_option("--stop-after", options->run.stop_after,
+                   "step to end at, with the learning rate of a run that goes on; 0 = the config's last")
+      ->type_name("STEPS")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
   command->add_flag("--repeat-batch", options->run.repeat_batch,
                     "train on one batch again and again and save nothing: the speed without data");
   command->add_flag("--json", options->json, "one JSON object on stdout at the end");

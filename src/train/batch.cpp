@@ -1,6 +1,7 @@
 #include "train/batch.h"
 
 #include "faceprobe/core/error.h"
+#include "faceprobe/core/parallel.h"
 #include "faceprobe/core/permutation.h"
 #include "faceprobe/core/region.h"
 #include "train/augment.h"
@@ -10,8 +11,8 @@
 namespace faceprobe::train {
 namespace {
 
-constexpr std::int64_t kAhead = 4;  // batches that lie ready
-constexpr int kWorkers = 1;         // a sample takes a fiftieth of a step's time on a processor
+constexpr std::int64_t kLeastAhead = 4;  // batches that lie ready; twice as many as there are workers, if that is more
+constexpr int kMostUsualWorkers = 8;     // beside a card: half the processors that there are, and not more
 
 // Where the mesh of faces in photos is too smooth and the highlights lie, errors count most; hair and clothes have no surface to speak of.
 Image surface_weight(const ByteImage& region) {
@@ -145,10 +146,15 @@ std::vector<int> samples_of_step(std::uint64_t seed, std::int64_t step, int batc
   return samples;
 }
 
+int usual_workers(bool on_card) { return on_card ? std::clamp(default_thread_count() / 2, 1, kMostUsualWorkers) : 1; }
+
 BatchSource::BatchSource(const synth::ShardReader& reader, const TrainConfig& config, std::int64_t first_step,
-                         bool repeat)
-    : reader_(reader), config_(config), repeat_(repeat), wanted_(first_step), started_(first_step) {
-  for (int i = 0; i < kWorkers; ++i) workers_.emplace_back([this] { work(); });
+                         bool repeat, int workers)
+    : reader_(reader), config_(config), repeat_(repeat),
+      ahead_(std::max<std::int64_t>(kLeastAhead, 2 * static_cast<std::int64_t>(workers))), wanted_(first_step),
+      started_(first_step) {
+  const int started = repeat ? 1 : std::max(1, workers);
+  for (int i = 0; i < started; ++i) workers_.emplace_back([this] { work(); });
 }
 
 BatchSource::~BatchSource() {
@@ -160,7 +166,7 @@ BatchSource::~BatchSource() {
 void BatchSource::work() {
   std::unique_lock lock(mutex_);
   while (true) {
-    changed_.wait(lock, [this] { return stop_ || failure_ || started_ < wanted_ + kAhead; });
+    changed_.wait(lock, [this] { return stop_ || failure_ || started_ < wanted_ + ahead_; });
     if (stop_ || failure_) return;
     const std::int64_t step = started_++;
     lock.unlock();

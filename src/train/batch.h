@@ -47,10 +47,14 @@ Batch plain_batch(const synth::ShardReader& reader, const std::vector<int>& samp
 // The samples of a step: a new order of all of them in each round through the data.
 std::vector<int> samples_of_step(std::uint64_t seed, std::int64_t step, int batch, int sample_count);
 
-// Makes batches ahead. `repeat` gives the first one again and again: what a step costs when data costs nothing.
+// Threads that make batches: one beside a processor, where a sample takes a fiftieth of a step's time, more beside a card.
+int usual_workers(bool on_card);
+
+// Makes batches ahead, on `workers` threads, 1 or more; the batches and their order are the same with any number. `repeat` gives the first one again and again: what a step costs when data costs nothing.
 class BatchSource {
  public:
-  BatchSource(const synth::ShardReader& reader, const TrainConfig& config, std::int64_t first_step, bool repeat = false);
+  BatchSource(const synth::ShardReader& reader, const TrainConfig& config, std::int64_t first_step, bool repeat = false,
+              int workers = 1);
   ~BatchSource();
   BatchSource(const BatchSource&) = delete;
   BatchSource& operator=(const BatchSource&) = delete;
@@ -64,6 +68,7 @@ class BatchSource {
   const synth::ShardReader& reader_;
   TrainConfig config_;
   bool repeat_;
+  std::int64_t ahead_;   // batches that lie ready at most
   std::int64_t wanted_;  // step that next() gives
   std::int64_t started_;
   std::map<std::int64_t, Batch> ready_;

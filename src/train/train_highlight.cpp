@@ -24,6 +24,7 @@ namespace {
 
 constexpr std::int64_t kRowEvery = 50;  // steps
 constexpr int kPictureRows = 8;
+constexpr int kMostWorkers = 256;
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
@@ -54,6 +55,11 @@ class Training {
     if (run.repeat_batch) return;
     io::create_folder(run.folder);
     load_checkpoint(checkpoint_path(), state_, *model_.module, optimizer_, average_, identity_);
+    if (state_.step > last_step()) {
+      throw Error(ExitCode::kUsage, "The run in " + run.folder.string() + " has " + std::to_string(state_.step) +
+                                        " steps already and cannot stop after " + std::to_string(last_step()) +
+                                        ". Choose a later step or another folder.");
+    }
     to_channels_last(*model_.module);  // a checkpoint from before the weights were so
     io::write_file_atomically(run.folder / "config.json", to_json(run.config));
     if (!run.validation_data.empty()) {
@@ -65,14 +71,16 @@ class Training {
 
   TrainReport go() {
     const TrainConfig& config = run_.config;
-    BatchSource source(data_, config, state_.step, run_.repeat_batch);
+    const int workers = run_.workers > 0 ? run_.workers : usual_workers(!device_.is_cpu());
+    BatchSource source(data_, config, state_.step, run_.repeat_batch, workers);
     const std::int64_t first = state_.step;
     double busy = 0;  // seconds in steps and in waiting for data
     double since = now();
     double loss_sum = 0;
     std::int64_t counted = 0;
     bool stopped = false;
-    while (state_.step < config.steps) {
+    const std::int64_t end = last_step();
+    while (state_.step < end) {
       if (hooks_.stop && hooks_.stop()) {
         stopped = true;
         break;
@@ -85,7 +93,7 @@ class Training {
       loss_sum += loss;
       ++counted;
       ++state_.step;
-      const bool last = state_.step == config.steps;
+      const bool last = state_.step == end;
       if (state_.step % kRowEvery == 0 || last) {
         const double seconds = now() - since;
         busy += seconds;
@@ -126,6 +134,7 @@ class Training {
     }
   }
 
+  std::int64_t last_step() const { return run_.stop_after > 0 ? run_.stop_after : run_.config.steps; }
   std::filesystem::path checkpoint_path() const { return run_.folder / "checkpoint.pt"; }
   std::filesystem::path weights_path() const { return run_.folder / "weights.safetensors"; }
 
@@ -163,8 +172,8 @@ class Training {
 
   void report(double steps_per_second) const {
     if (!hooks_.progress) return;
-    const double left = static_cast<double>(run_.config.steps - state_.step) / steps_per_second;
-    hooks_.progress({state_.rows.back(), run_.config.steps, left});
+    const double left = static_cast<double>(last_step() - state_.step) / steps_per_second;
+    hooks_.progress({state_.rows.back(), last_step(), left});
   }
 
   void save() {
@@ -196,6 +205,15 @@ class Training {
 
 TrainReport train_highlight(const TrainRun& run, const TrainHooks& hooks) {
   if (const std::string problem = run.config.validate(); !problem.empty()) throw Error(ExitCode::kUsage, problem);
+  if (run.stop_after < 0 || run.stop_after > run.config.steps) {
+    throw Error(ExitCode::kUsage, "The run is to stop after " + std::to_string(run.stop_after) +
+                                      " steps; allowed is 1 to the config's " + std::to_string(run.config.steps) +
+                                      ", and 0 for all of them.");
+  }
+  if (run.workers < 0 || run.workers > kMostWorkers) {
+    throw Error(ExitCode::kUsage, "The run is to have " + std::to_string(run.workers) + " workers; allowed is 1 to " +
+                                      std::to_string(kMostWorkers) + ", and 0 for what the device can use.");
+  }
   net::require_device(run.device);
   at::set_num_threads(run.threads > 0 ? run.threads : default_thread_count());
   return Training(run, hooks).go();

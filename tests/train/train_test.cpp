@@ -59,6 +59,41 @@ TEST(Train, TwoHundredStepsLowerTheErrorAndAResumedRunIsTheSameBitForBit) {
   EXPECT_EQ(bytes_of(folder.run("cut") / "weights.safetensors"), bytes_of(folder.run("whole") / "weights.safetensors"));
 }
 
+// Short of the schedule's end, as shipped weights were: the rows say the rate of the whole schedule, and going on is as if it had not ended.
+TEST(Train, ARunThatStopsAfterSomeStepsIsTheBeginningOfTheWhole) {
+  const DataFolder folder("stop_after", 32, 8);
+  TrainRun run;
+  run.config = tiny_config();
+  run.config.steps = 150;
+  run.data = folder.data();
+  run.threads = 1;
+  run.folder = folder.run("whole");
+  const TrainReport whole = train_highlight(run, {});
+  run.folder = folder.run("part");
+  run.stop_after = 100;
+  std::int64_t told = 0;
+  TrainHooks hooks;
+  hooks.progress = [&](const TrainProgress& progress) { told = progress.steps; };
+  const TrainReport part = train_highlight(run, hooks);
+  EXPECT_TRUE(part.finished);
+  EXPECT_EQ(told, 100);
+  ASSERT_EQ(part.rows.size(), 2U);
+  EXPECT_EQ(part.rows[1].loss, whole.rows[1].loss);
+  EXPECT_EQ(part.rows[1].learning_rate, whole.rows[1].learning_rate);
+  EXPECT_GT(part.rows[1].learning_rate, whole.rows[2].learning_rate);
+  const std::string weights = bytes_of(part.weights);
+  EXPECT_TRUE(train_highlight(run, {}).finished) << "nothing is left to do";
+  EXPECT_EQ(bytes_of(part.weights), weights);
+  EXPECT_NE(weights, bytes_of(whole.weights));
+  run.stop_after = 50;
+  EXPECT_THROW(train_highlight(run, {}), Error);
+  run.stop_after = 151;
+  EXPECT_THROW(train_highlight(run, {}), Error);
+  run.stop_after = 0;
+  train_highlight(run, {});
+  EXPECT_EQ(bytes_of(part.weights), bytes_of(whole.weights));
+}
+
 TEST(Train, ARunOfAnotherConfigIsRefusedItsFolder) {
   const DataFolder folder("taken", 32, 8);
   TrainRun run;

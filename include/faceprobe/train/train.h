@@ -14,6 +14,7 @@
 #include "faceprobe/net/device.h"
 #include "faceprobe/train/config.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -29,6 +30,11 @@ struct TrainRun {
   std::filesystem::path start;  // weights to begin with, of a network nowhere wider; empty: drawn from the seed
   net::Device device;
   int threads = 0;            // of the processor; 0 = all
+  // Threads beside those that make batches ready; 0 = what the device can use up. The run is the same with any number.
+  int workers = 0;
+  // Ends the run as if its config had so many steps, but with the learning rate as it is there; 0 = at the config's last step. A folder
+  // that holds more steps than that is refused; without it the run goes on later.
+  std::int64_t stop_after = 0;
   bool repeat_batch = false;  // train on the first batch only: the speed that data must not hold up. Saves nothing
 };
 
@@ -56,13 +62,13 @@ struct TrainRow {
 
 struct TrainProgress {
   TrainRow row;
-  std::int64_t steps = 0;
+  std::int64_t steps = 0;   // at the end
   double seconds_left = 0;  // at the present rate
 };
 
 struct TrainReport {
   std::vector<TrainRow> rows;  // of the whole run, resumed parts included
-  bool finished = false;       // false: it was stopped
+  bool finished = false;       // to the last step, or to stop_after; false: it was stopped before
   std::filesystem::path weights;
   double samples_per_second = 0;  // over this part of the run, validation apart
 };
@@ -75,7 +81,7 @@ struct TrainHooks {
 };
 
 // Throws Error: data that cannot be read or lack the meshes the network wants (kInput), a folder of another run or that cannot be
-// written (kOutput), a device that is not there (kDevice), a config that does not validate (kUsage), a loss that is no number any more
+// written (kOutput), a device that is not there (kDevice), a config that does not validate (kUsage), a stop_after that is past (kUsage), a loss that is no number any more
 // (kUnexpected; the checkpoint before it is kept).
 TrainReport train_highlight(const TrainRun& run, const TrainHooks& hooks);
 
