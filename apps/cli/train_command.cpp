@@ -39,9 +39,10 @@ std::string config_text(const std::string& path) {
 
 // What the trainers of light do not know would be passed over in silence.
 void refuse_options_of_highlight(const Options& options) {
-  const std::pair<bool, const char*> given[] = {{options.device != "auto", "--device"}, {options.json, "--json"},
-                                               {options.run.stop_after != 0, "--stop-after"},
-                                               {options.run.workers != 0, "--workers"}};
+  const std::pair<bool, const char*> given[] = {{options.device != "auto", "--device"},
+                                                {options.json, "--json"},
+                                                {options.run.stop_after != 0, "--stop-after"},
+                                                {options.run.workers != 0, "--workers"}};
   for (const auto& [is_given, name] : given) {
     if (is_given)
       throw Error(ExitCode::kUsage, "train " + options.net + " takes no " + name + "; highlight and face do.");

@@ -24,6 +24,7 @@ void to_json(Json& json, const ObjectText<const std::string>& object) { json = J
 constexpr auto kEachTrainField = [](auto& config, const auto& visit) {
   visit("architecture", config.architecture);
   visit("picture_px", config.picture_px, 0, 1024);
+  visit("precision", config.precision);
   visit("batch", config.batch, 1, 4096);
   visit("steps", config.steps, 1, 1e9);
   visit("learning_rate", config.learning_rate, 1e-9, 1);
@@ -67,6 +68,13 @@ std::string TrainConfig::validate() const {
   if (!problem.empty()) return problem;
   if (architecture != "unet" && architecture != "face" && architecture != "mscr" && architecture != "shi") {
     return "The training config's architecture is \"" + architecture + "\"; there are unet, face, mscr and shi.";
+  }
+  if (precision != "float32" && precision != "bf16") {
+    return "The training config's precision is \"" + precision + "\"; there are float32 and bf16.";
+  }
+  if (precision == "bf16" && architecture == "shi") {
+    return "The training config's precision is bf16 for the architecture \"shi\"; allowed is float32, and bf16 for the "
+           "others.";
   }
   if (picture_px != 0 && (picture_px < 8 || architecture != "face")) {
     return "The training config's picture_px is " + std::to_string(picture_px) + " for the architecture \"" +

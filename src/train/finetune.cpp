@@ -44,6 +44,7 @@ TrainConfig config_of(const std::filesystem::path& weights) {
   }
   config.architecture = info.architecture;
   config.network = info.options_json;
+  config.precision = "float32";  // on the processor, whatever they were trained on
   return config;
 }
 
@@ -225,7 +226,7 @@ class Finetuning {
 
   // What the network made of these photos before it was finetuned.
   LayerMeasures measures_before(const PersonSet& person, const std::vector<int>& chosen,
-                                      const PersonPhotos& group) const {
+                                const PersonPhotos& group) const {
     const torch::NoGradGuard no_gradients;
     std::vector<Image> layers;
     for (const int number : chosen) {

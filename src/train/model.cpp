@@ -9,6 +9,7 @@
 #include "net/torch/mscr.h"
 #include "net/torch/shi.h"
 #include "net/torch/unet.h"
+#include "train/autocast.h"
 #include "train/channels_last.h"
 #include "train/face_loss.h"
 #include "train/loss.h"
@@ -39,25 +40,38 @@ torch::Tensor highlight_of(const torch::Tensor& raw, const Batch& batch) {
   return net::highlight_from_raw(raw.narrow(1, 0, net::kRawChannels).to(torch::kFloat), batch.linear);
 }
 
+using Forward = std::function<torch::Tensor(const torch::Tensor&)>;
+
+// What is measured is measured in float, as the weights will be used.
+Forward in_precision(const std::string& precision, Forward forward) {
+  if (precision != "bf16") return forward;
+  return [forward = std::move(forward)](const torch::Tensor& input) {
+    if (!torch::GradMode::is_enabled()) return forward(input);
+    const Bf16Products bf16;
+    return forward(input).to(torch::kFloat);
+  };
+}
+
 struct Raw {
   torch::Tensor channels;
   torch::Tensor gain;  // of the picture; of the face network alone
 };
 
 // `surface`: with the inputs and outputs of the face network.
-Model unet_model(const std::string& given, bool surface) {
+Model unet_model(const TrainConfig& config, bool surface) {
   net::UNetOptions defaults;
   if (surface) {
     defaults.in_channels = net::FaceInputs::kCount;
     defaults.out_channels = net::FaceOutputs::kCount;
   }
-  const auto options = read_options(net::unet_options_from_json, merged(net::options_json(defaults), given));
+  const auto options = read_options(net::unet_options_from_json, merged(net::options_json(defaults), config.network));
   net::UNet unet(options);
   unet->to(torch::kFloat, false);
-  const auto raw_of = [impl = unet.ptr(), surface](const Batch& batch) -> Raw {
-    if (!surface) return {impl->forward(net::prepare_input(batch.linear, batch.clip, batch.mask)), {}};
+  const Forward run = in_precision(config.precision, [impl = unet.ptr()](const auto& x) { return impl->forward(x); });
+  const auto raw_of = [run, surface](const Batch& batch) -> Raw {
+    if (!surface) return {run(net::prepare_input(batch.linear, batch.clip, batch.mask)), {}};
     const net::FaceInput input = net::prepare_face_input(batch.linear, batch.clip, batch.mask, batch.surface.mesh);
-    return {impl->forward(input.channels), input.gain};
+    return {run(input.channels), input.gain};
   };
   Model model;
   model.module = unet.ptr();
@@ -65,11 +79,11 @@ Model unet_model(const std::string& given, bool surface) {
   model.highlight = model.forward;
   model.metadata = {{net::kArchitectureKey, surface ? net::kFaceArchitecture : net::kUNetArchitecture},
                     {net::kOptionsKey, net::options_json(options)}};
-  model.loss = [raw_of, surface](const Batch& batch, const LossConfig& config) {
+  model.loss = [raw_of, surface](const Batch& batch, const LossConfig& weights) {
     const Raw raw = raw_of(batch);
-    const torch::Tensor loss = highlight_loss(highlight_of(raw.channels, batch), batch, config);
+    const torch::Tensor loss = highlight_loss(highlight_of(raw.channels, batch), batch, weights);
     if (!surface) return loss;
-    return loss + surface_loss(net::surface_from_raw(raw.channels, raw.gain), batch.surface, config);
+    return loss + surface_loss(net::surface_from_raw(raw.channels, raw.gain), batch.surface, weights);
   };
   if (surface) {
     model.surface = [raw_of](const Batch& batch) {
@@ -80,19 +94,17 @@ Model unet_model(const std::string& given, bool surface) {
   return model;
 }
 
-Model mscr_model(const std::string& given) {
-  const auto options = read_options(net::mscr_options_from_json, merged(net::options_json(net::MscrOptions{}), given));
+Model mscr_model(const TrainConfig& config) {
+  const auto options =
+      read_options(net::mscr_options_from_json, merged(net::options_json(net::MscrOptions{}), config.network));
   net::Mscr mscr(options);
-  auto forward = [mscr, options](const Batch& batch) mutable {
-    return mscr->forward(net::mscr_input(batch.linear, options));
-  };
+  const Forward run = in_precision(config.precision, [impl = mscr.ptr()](const auto& x) { return impl->forward(x); });
+  auto forward = [run, options](const Batch& batch) { return run(net::mscr_input(batch.linear, options)); };
   Model model;
   model.module = mscr.ptr();
   model.forward = forward;
-  model.highlight = [forward](const Batch& batch) mutable {
-    return torch::minimum(forward(batch).clamp_min(0), batch.linear);
-  };
-  model.loss = [forward](const Batch& batch, const LossConfig&) mutable { return squared_loss(forward(batch), batch); };
+  model.highlight = [forward](const Batch& batch) { return torch::minimum(forward(batch).clamp_min(0), batch.linear); };
+  model.loss = [forward](const Batch& batch, const LossConfig&) { return squared_loss(forward(batch), batch); };
   model.metadata = {{net::kArchitectureKey, net::kMscrArchitecture}, {net::kOptionsKey, net::options_json(options)}};
   return model;
 }
@@ -119,9 +131,9 @@ bool finds_surface(const TrainConfig& config) { return config.architecture == ne
 namespace {
 
 Model model_as_drawn(const TrainConfig& config) {
-  if (config.architecture == net::kMscrArchitecture) return mscr_model(config.network);
+  if (config.architecture == net::kMscrArchitecture) return mscr_model(config);
   if (config.architecture == net::kShiArchitecture) return shi_model(config.network);
-  Model model = unet_model(config.network, finds_surface(config));
+  Model model = unet_model(config, finds_surface(config));
   if (const auto unet = std::dynamic_pointer_cast<net::UNetImpl>(model.module);
       config.picture_px % unet->multiple() != 0) {
     throw Error(ExitCode::kUsage, "The training config's picture_px is " + std::to_string(config.picture_px) +

@@ -214,6 +214,11 @@ TrainReport train_highlight(const TrainRun& run, const TrainHooks& hooks) {
     throw Error(ExitCode::kUsage, "The run is to have " + std::to_string(run.workers) + " workers; allowed is 1 to " +
                                       std::to_string(kMostWorkers) + ", and 0 for what the device can use.");
   }
+  if (run.config.precision == "bf16" && !run.device.cuda) {
+    throw Error(ExitCode::kUsage,
+                "The training config's precision is bf16, which is for a card, and the run is on the processor. Give "
+                "float32, or --device cuda.");
+  }
   net::require_device(run.device);
   at::set_num_threads(run.threads > 0 ? run.threads : default_thread_count());
   return Training(run, hooks).go();

@@ -30,13 +30,15 @@ TEST(ModelCard, EveryShippedFileHasTheHashOnItsCard) {
 TEST(ModelCard, TheHashIsTheFilesOwn) {
   const std::string a(64, 'a');
   const std::string b(64, 'b');
-  const std::string card = "| `x.tflite` | detector | `" + a + "` |\n\n## y.safetensors\n\n| made by | `z.safetensors` |\n| sha256 | `" +
-                           b + "` |\n\n## w.safetensors\n\n| sha256 | `" + a + "` |\n";
+  const std::string card = "| `x.tflite` | detector | `" + a +
+                           "` |\n\n## y.safetensors\n\n| made by | `z.safetensors` |\n| sha256 | `" + b +
+                           "` |\n\n## w.safetensors\n\n| sha256 | `" + a + "` |\n";
   EXPECT_EQ(hash_on_card(card, "x.tflite"), a);
   EXPECT_EQ(hash_on_card(card, "y.safetensors"), b);
   EXPECT_EQ(hash_on_card(card, "w.safetensors"), a);
   EXPECT_EQ(hash_on_card(card, "z.safetensors"), "") << "named in another's section";
-  EXPECT_EQ(hash_on_card("## y.safetensors\n| sha256 | `" + b + "c` |\n", "y.safetensors"), "") << "too long for a hash";
+  EXPECT_EQ(hash_on_card("## y.safetensors\n| sha256 | `" + b + "c` |\n", "y.safetensors"), "")
+      << "too long for a hash";
 }
 
 TEST(ModelCard, AChangedFileIsFound) {

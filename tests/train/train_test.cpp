@@ -131,6 +131,22 @@ TEST(Train, TheFaceNetworkLearnsTheSurfaceBesideTheHighlights) {
   EXPECT_LE(last.normal_deg, first.normal_deg);
 }
 
+TEST(Train, ProductsInBf16AreForACard) {
+  const DataFolder folder("bf16", 32, 8);
+  TrainRun run;
+  run.config = tiny_config();
+  run.config.precision = "bf16";
+  run.data = folder.data();
+  run.folder = folder.run("run");
+  try {
+    train_highlight(run, {});
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kUsage);
+    EXPECT_NE(std::string(error.what()).find("--device cuda"), std::string::npos) << error.what();
+  }
+}
+
 TEST(Train, TheFaceNetworkNeedsMeshes) {
   const DataFolder folder("no_mesh", 32, 8);
   std::filesystem::remove(folder.data() / synth::mesh_name(0));
@@ -181,6 +197,8 @@ TEST(TrainConfig, SaysWhatIsWrong) {
   refused(R"({"batch": 0})", "is 0; allowed is 1 to 4096");
   refused(R"({"learning_rate": 2})", "1e-9 to 1");
   refused(R"({"architecture": "vgg"})", "unet, face, mscr and shi");
+  refused(R"({"precision": "half"})", "float32 and bf16");
+  refused(R"({"architecture": "shi", "precision": "bf16"})", "bf16 for the others");
   refused(R"({"network": [8, 8]})", "[8,8] for network");
   const TrainConfig config = train_config_from_json(R"({"batch": 3, "network": {"widths": [8, 8]}})");
   EXPECT_EQ(config.batch, 3);

@@ -50,6 +50,9 @@ struct TrainConfig {
   // Side of the square pictures that the network is given, kept with its weights: it then looks at every face twice, at all of the picture
   // and from near, and is validated on the near view. 0 = pictures as they were rendered.
   int picture_px = 0;
+  // "float32", or "bf16": the network's products in bfloat16 while it is trained, on a card alone; weights, losses and what is measured stay
+  // in float. Not for shi.
+  std::string precision = "float32";
   int batch = 16;  // samples to a step
   std::int64_t steps = 20000;
   double learning_rate = 1e-3;  // AdamW's, at its peak

@@ -29,7 +29,7 @@ struct TrainRun {
   std::filesystem::path folder;           // made; a run that is there goes on if its config and data are the same
   std::filesystem::path start;  // weights to begin with, of a network nowhere wider; empty: drawn from the seed
   net::Device device;
-  int threads = 0;            // of the processor; 0 = all
+  int threads = 0;  // of the processor; 0 = all
   // Threads beside those that make batches ready; 0 = what the device can use up. The run is the same with any number.
   int workers = 0;
   // Ends the run as if its config had so many steps, but with the learning rate as it is there; 0 = at the config's last step. A folder
