@@ -70,13 +70,15 @@ void add_rows(ScoreTable& table, int number, const SyntheticPhoto& photo, const 
       whole = averaged(whole);
     }
     const double error = rmse(masked, truth, photo.skin, options.threads);
+    const double error_whole = rmse(whole, truth, {}, options.threads);
     table.add({method.name,
                std::to_string(number),
                groups,
                {{"rmse_skin", error},
                 {"psnr_skin", psnr_of_rmse(error)},
                 {"ssim_skin", ssim(masked, truth, photo.skin, options.threads)},
-                {"rmse_whole", rmse(whole, truth, {}, options.threads)},
+                {"rmse_whole", error_whole},
+                {"psnr_whole", psnr_of_rmse(error_whole)},
                 {"ssim_whole", ssim(whole, truth, {}, options.threads)}}});
   }
 }

@@ -61,6 +61,7 @@ eval::ReportSection colour_section(const PaperPlan& plan, const synth::ShardRead
                     table_of(scores, "psnr_skin", "PSNR on the face's skin, dB", 1, kOurs, higher),
                     table_of(scores, "rmse_whole", "RMSE on the whole crop", 2, kOurs),
                     table_of(scores, "ssim_whole", "SSIM on the whole crop", 3, kOurs, higher),
+                    table_of(scores, "psnr_whole", "PSNR on the whole crop, dB", 1, kOurs, higher),
                     table_by_group(scores, "rmse_skin", "tone", "RMSE on the skin by tone", 2, kOurs),
                     table_by_group(scores, "rmse_skin", "clipped", "RMSE on the skin by clipped share", 2, kOurs),
                     table_by_group(scores, "rmse_skin", "size", "RMSE on the skin by its share of the crop", 2, kOurs)};
@@ -86,7 +87,10 @@ eval::ReportSection grey_section(const PaperPlan& plan, const synth::ShardReader
               "Tan, Yang and Shen live by colour and find nothing here, as the black layer; Li expects a highlight of "
               "any skin.",
           .tables = {table_of(scores, "rmse_skin", "RMSE on the face's skin", 2, kOurs),
-                     table_of(scores, "ssim_skin", "SSIM on the face's skin", 3, kOurs, eval::Better::kHigher)}};
+                     table_of(scores, "ssim_skin", "SSIM on the face's skin", 3, kOurs, eval::Better::kHigher),
+                     table_of(scores, "rmse_whole", "RMSE on the whole crop", 2, kOurs),
+                     table_of(scores, "ssim_whole", "SSIM on the whole crop", 3, kOurs, eval::Better::kHigher)},
+          .plots = {histogram_of(scores, "rmse_skin", "Photos by RMSE on the skin", "RMSE, 0-255", kOurs)}};
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ struct HighlightBenchmark {
   std::string validate() const;
 };
 
-// Metrics of each row: rmse_skin, psnr_skin, ssim_skin, rmse_whole, ssim_whole (image_metrics.h, 0-255). Groups: tone (skin_tone.h, of the true
+// Metrics of each row: rmse_skin, psnr_skin, ssim_skin, rmse_whole, psnr_whole, ssim_whole (image_metrics.h, 0-255). Groups: tone (skin_tone.h, of the true
 // albedo), clipped (share of the face's skin), size (of the face's skin in the crop). Throws Error(kUsage) for options that do not
 // validate.
 ScoreTable measure_highlights(const synth::ShardReader& faces, const std::vector<HighlightMethod>& methods,
