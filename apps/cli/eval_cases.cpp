@@ -2,8 +2,10 @@
 #include "eval_stages.h"
 #include "faceprobe/assets/object.h"
 #include "faceprobe/core/error.h"
+#include "faceprobe/core/version.h"
 #include "faceprobe/eval/case_benchmark.h"
 #include "faceprobe/eval/case_export.h"
+#include "faceprobe/eval/case_report.h"
 #include "faceprobe/io/atomic_file.h"
 #include "faceprobe/io/data_files.h"
 #include "scene_table.h"
@@ -40,6 +42,13 @@ std::vector<eval::CaseMethod> case_methods(const EvalOptions& options) {
   return methods;
 }
 
+std::set<std::string> own_names(const EvalOptions& options) {
+  if (options.weights.empty()) return {OwnMethod().name};
+  std::set<std::string> names;
+  for (const std::string& named : options.weights) names.insert(name_and_file(named).first);
+  return names;
+}
+
 void print_metric(const eval::ScoreTable& table, const std::string& title, const std::string& metric, int decimals) {
   if (!table.known_values(metric).empty()) fmt::print("\n### {}\n\n{}", title, table.markdown(metric, decimals));
 }
@@ -64,13 +73,13 @@ int eval_cases(const EvalOptions& options) {
   const std::vector<eval::CaseMethod> methods = case_methods(options);
   const std::filesystem::path folder = options.output;
   const synth::SurfaceMesh mesh = options.object.empty() ? eval::sphere_mesh() : assets::load_object(options.object);
-  const eval::CaseScores scores =
-      eval::measure_cases(options.data, methods,
-                          {.work = folder / "cache",
-                           .object = [&] { return eval::LitObject(mesh, {.threads = options.threads}); },
-                           .scoring = program_identity() + identity_of_file(options.object),
-                           .samples = options.samples,
-                           .progress = eval_progress()});
+  const auto object = [&] { return eval::LitObject(mesh, {.threads = options.threads}); };
+  const eval::CaseScores scores = eval::measure_cases(options.data, methods,
+                                                      {.work = folder / "cache",
+                                                       .object = object,
+                                                       .scoring = program_identity() + identity_of_file(options.object),
+                                                       .samples = options.samples,
+                                                       .progress = eval_progress()});
   fmt::print("{} of {} cases of {}.\n", scores.cases, scores.known, options.data);
   print_metric(scores.light, "Diffuse object, RMSE of 255", "diffuse", 1);
   print_metric(scores.light, "Glossy object, RMSE of 255", "glossy", 1);
@@ -89,6 +98,17 @@ int eval_cases(const EvalOptions& options) {
     fmt::print("\n### Missing, and what the methods said is in log.txt of the folder\n\n{}", scores.missing_markdown());
     spdlog::warn("{} of {} results are missing", scores.failures.size(), scores.runs.rows().size());
   }
+  const std::string data_name = std::filesystem::absolute(options.data).lexically_normal().filename().string();
+  const eval::PaperReport report =
+      eval::case_report(scores, {.data = options.data,
+                                 .work = folder / "cache",
+                                 .made_with = fmt::format("Faceprobe {}. {} of {} cases{}.", kVersion, scores.cases,
+                                                          scores.known, data_name.empty() ? "" : " of " + data_name),
+                                 .ours = own_names(options),
+                                 .object = options.object.empty() ? "A sphere" : "An object",
+                                 .draw = object,
+                                 .rows = options.rows});
+  io::write_file_atomically(folder / "cases.html", eval::report_html(report));
   write_table(folder, "cases_light", scores.light);
   write_table(folder, "cases_highlight", scores.highlight);
   // Every run has a folder of its own: as groups of a JSON these would be as many summaries.

@@ -62,9 +62,10 @@ void add_eval(CLI::App& program, Action& action) {
   command->add_option("--samples", options->samples, "photos or cases, spread evenly over the data")
       ->capture_default_str();
   command
-      ->add_option("-o,--output", options->output,
-                   "folder for STAGE.csv, STAGE.json and a picture; default: nothing is written, but for cases and "
-                   "export-cases, which need one")
+      ->add_option(
+          "-o,--output", options->output,
+          "folder for STAGE.csv, STAGE.json and a picture, for cases as a page; default: nothing is written, but for "
+          "cases and export-cases, which need one")
       ->type_name("DIR");
   command->add_option("--rows", options->rows, "photos in that picture")->capture_default_str()->check(CLI::Range(1, 200));
   command

@@ -47,6 +47,8 @@ case_eval_cases() {
     [ -s "out/$file" ] || fail "no $file"
   done
   json out/cases_light.json rows >/dev/null
+  for file in "my method" ambient; do grep -qF "<th scope=\"row\">$file" out/cases.html || fail "no row of $file on the page"; done
+  [ "$(grep -c '<img alt=.* src="data:image/png' out/cases.html)" = 2 ] || fail "other pictures than objects and layers on the page"
   grep -qF '"-rf $(touch pwned); ""x""' out/cases_runs.csv || fail "the odd name is not in the table"
   [ "$(runs)" = 2 ] || fail "$(runs) runs of two cases"
   cp stdout first
