@@ -51,4 +51,25 @@ std::function<std::string(int map)> scene_of_maps(const std::filesystem::path& t
   };
 }
 
+std::vector<std::size_t> maps_of_kind(const std::vector<std::string>& maps, const std::vector<std::string>& tables,
+                                      SceneKind kind) {
+  const std::string recipe = nlohmann::json{{"maps", maps}}.dump();
+  std::vector<char> wanted(maps.size(), 0);
+  for (const std::string& table : tables) {
+    const auto folder_of = scene_of_maps(table, recipe);
+    const auto scene_of = scene_of_maps(table, recipe, "scene");
+    for (std::size_t i = 0; i < maps.size(); ++i) {
+      const int map = static_cast<int>(i);
+      const bool of_kind = kind == SceneKind::kIndoor ? folder_of(map) == "indoor"
+                                                      : folder_of(map) == "outdoor" && scene_of(map) != "night";
+      if (of_kind) wanted[i] = 1;
+    }
+  }
+  std::vector<std::size_t> numbers;
+  for (std::size_t i = 0; i < maps.size(); ++i) {
+    if (wanted[i] != 0) numbers.push_back(i);
+  }
+  return numbers;
+}
+
 }  // namespace faceprobe::cli

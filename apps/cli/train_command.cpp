@@ -63,13 +63,13 @@ void log_row(const train::TrainProgress& progress) {
 
 int run(Options options) {
   const std::string config_json = config_text(options.config);
-  if (options.net != "sky" && !options.scenes.empty())
-    throw Error(ExitCode::kUsage, "train " + options.net + " takes no --scenes; sky does.");
+  if (options.net != "sky" && options.net != "gardner" && !options.scenes.empty())
+    throw Error(ExitCode::kUsage, "train " + options.net + " takes no --scenes; gardner and sky do.");
   if (options.net != "light" && !options.more.empty())
     throw Error(ExitCode::kUsage, "train " + options.net + " takes no --more; light does.");
   if (options.net != "highlight" && options.net != "face") refuse_options_of_highlight(options);
   if (options.net == "light") return train_light(options.run, options.more, config_json);
-  if (options.net == "gardner") return train_gardner(options.run, config_json);
+  if (options.net == "gardner") return train_gardner(options.run, config_json, options.scenes);
   if (options.net == "legendre") return train_legendre(options.run, config_json);
   if (options.net == "sky") return train_sky(options.run, config_json, options.scenes);
   if (!config_json.empty()) options.run.config = train::train_config_from_json(config_json);
@@ -120,9 +120,10 @@ void add_train(CLI::App& program, Action& action) {
                    "such a folder of other people or maps, to measure on; default: nothing is measured")
       ->type_name("DIR");
   command
-      ->add_option("--scenes", options->scenes,
-                   "sky: tables that say which maps are outdoor and by day, CSV with columns name, folder and scene; "
-                   "default: all are")
+      ->add_option(
+          "--scenes", options->scenes,
+          "gardner and sky: tables of the maps' scenes, CSV with columns name, folder and scene; gardner then learns "
+          "from the indoor ones, sky from those that are outdoor and by day; default: from all")
       ->type_name("FILE")
       ->check(CLI::ExistingFile);
   command->add_option("--start", options->run.start, "weights to begin with; default: drawn at random")

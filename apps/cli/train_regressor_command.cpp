@@ -1,8 +1,8 @@
 #include "train_regressor_command.h"
 
-#include "faceprobe/assets/maps.h"
 #include "faceprobe/core/error.h"
 #include "faceprobe/train/train_regressor.h"
+#include "scene_maps.h"
 
 #include <spdlog/spdlog.h>
 
@@ -21,10 +21,10 @@ train::RegressorRun regressor_run(const train::TrainRun& options, const std::str
           .threads = options.threads};
 }
 
-std::vector<EnvMap> maps_of(const std::filesystem::path& folder) {
+// Gardner's network is one for rooms.
+std::vector<EnvMap> indoor_maps(const std::filesystem::path& folder, const std::vector<std::string>& scenes) {
   std::vector<EnvMap> maps;
-  if (folder.empty()) return maps;
-  for (auto& [name, map] : assets::load_maps(folder)) maps.push_back(std::move(map));
+  for (auto& [name, map] : load_scene_maps(folder, scenes, SceneKind::kIndoor)) maps.push_back(std::move(map));
   return maps;
 }
 
@@ -45,9 +45,10 @@ int finish(const train::RegressorReport& report) {
 
 }  // namespace
 
-int train_gardner(const train::TrainRun& options, const std::string& config) {
+int train_gardner(const train::TrainRun& options, const std::string& config, const std::vector<std::string>& scenes) {
   const train::RegressorRun run = regressor_run(options, config, train::gardner_config());
-  const train::GardnerData data{.training = maps_of(options.data), .validation = maps_of(options.validation_data)};
+  const train::GardnerData data{.training = indoor_maps(options.data, scenes),
+                                .validation = indoor_maps(options.validation_data, scenes)};
   return finish(train::train_gardner(data, run, log_regressor_row));
 }
 

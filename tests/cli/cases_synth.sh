@@ -73,6 +73,12 @@ case_train_and_eval() {
   expect_refused 7 "cuda" train highlight --data faces -o other --device cuda
   expect_refused 2 "takes no --device" train light --data faces -o other --device cpu
   expect_refused 2 "takes no --scenes" train highlight --data faces -o other --scenes wrong.json
+  # Gardner's network is one for rooms: of the open alone it has nothing to learn.
+  mkdir maps
+  expect_exit 0 estimate "$photo" -o maps/field.hdr "${quick[@]}"
+  printf 'name,folder,scene\nfield,outdoor,sunny\n' >scenes.csv
+  expect_refused 3 "no map to learn from" train gardner --data maps --scenes scenes.csv -o other
+  expect_stderr "0 of the 1 maps in maps are indoor"
   expect_refused 5 "tiny.json" eval highlight --data faces --weights tiny.json
   echo '{"batch": 1, "steps": 4, "network": {"widths": [8, 16]}}' >changed.json
   expect_refused 6 "another config" train highlight --config changed.json --data faces -o run
