@@ -84,11 +84,12 @@ int run(PaperPlan plan) {
   io::create_folder(plan.output);
   plan.progress = part_progress("synthetic faces");
   make_paper_faces(plan);
+  const std::string data = identity_of_data(plan);
   eval::PaperReport report{.title = "Light from faces: the evaluation", .made_with = made_with(plan)};
   for (std::size_t i = 0; i < kParts.size(); ++i) {
     if (!plan.measures(kParts[i].name)) continue;
     plan.progress = part_progress(fmt::format("{}, part {} of {}", kParts[i].name, i + 1, kParts.size()));
-    Sections sections = cached_part(plan, key_of(plan, kParts[i].rivals), kParts[i].name, kParts[i].measure);
+    Sections sections = cached_part(plan, key_of(plan, data, kParts[i].rivals), kParts[i].name, kParts[i].measure);
     std::move(sections.begin(), sections.end(), std::back_inserter(report.sections));
     spdlog::info("part {} of {}, {}: done", i + 1, kParts.size(), kParts[i].name);
   }

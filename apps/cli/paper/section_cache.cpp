@@ -3,8 +3,8 @@
 #include "faceprobe/core/error.h"
 #include "faceprobe/io/atomic_file.h"
 #include "faceprobe/io/data_files.h"
+#include "paper/folder_listing.h"
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -27,23 +27,6 @@ std::string hash_of_faces(const fs::path& folder) {
   return text;
 }
 
-// Names, sizes and times of the files: to read gigabytes of photos would take longer than to look at them. Meshes and traced photos beside the
-// faces are told by these, too.
-std::string listing_of(const fs::path& folder) {
-  std::vector<std::string> lines;
-  std::error_code gone;
-  for (fs::recursive_directory_iterator it(folder, fs::directory_options::follow_directory_symlink, gone), end;
-       it != end; it.increment(gone)) {
-    if (!it->is_regular_file(gone)) continue;
-    lines.push_back(fs::relative(it->path(), folder, gone).string() + ' ' + std::to_string(it->file_size(gone)) + ' ' +
-                    std::to_string(it->last_write_time(gone).time_since_epoch().count()));
-  }
-  std::ranges::sort(lines);
-  std::string text;
-  for (const std::string& line : lines) text += line + '\n';
-  return text;
-}
-
 std::optional<Sections> read_sections(const fs::path& file) {
   if (!fs::exists(file)) return std::nullopt;
   const nlohmann::json json = nlohmann::json::parse(io::read_text(file, kMostBytes), nullptr, false);
@@ -59,18 +42,25 @@ std::optional<Sections> read_sections(const fs::path& file) {
 
 }  // namespace
 
-std::string key_of(const PaperPlan& plan, std::span<const char* const> rivals) {
-  std::string text = hash_of_file("/proc/self/exe");
-  for (const char* name : {"face.safetensors", "light.safetensors"}) text += hash_of_file(io::data_file(name));
-  for (const fs::path& folder : {plan.faces, plan.light, plan.groups, plan.training}) {
+std::string identity_of_data(const PaperPlan& plan) {
+  std::string text;
+  for (const fs::path& folder : {plan.faces, plan.light, plan.groups, plan.training})
     text += folder.empty() ? "none" : hash_of_faces(folder) + listing_of(folder);
-  }
   for (const char* part : {"real", "hdri/dev", "objects"}) text += part + listing_of(plan.data / part);
   if (fs::exists(plan.data / "hdri" / "dev.csv")) text += hash_of_file(plan.data / "hdri" / "dev.csv");
+  return io::sha256_hex(text);
+}
+
+std::string key_of(const PaperPlan& plan, const std::string& data, std::span<const char* const> rivals,
+                   const std::string& programs) {
+  std::string text = hash_of_file("/proc/self/exe");
+  for (const char* name : {"face.safetensors", "light.safetensors"}) text += hash_of_file(io::data_file(name));
+  text += data;
   for (const char* rival : rivals) {
     const fs::path file = plan.rivals / rival;
     text += rival + (!plan.rivals.empty() && fs::exists(file) ? hash_of_file(file) : "none");
   }
+  text += programs;
   text += plan.quick ? "quick" : "whole";
   return io::sha256_hex(text);
 }

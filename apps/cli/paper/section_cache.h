@@ -10,9 +10,14 @@
 
 namespace faceprobe::cli {
 
-// Hash over the program, its weights, those of the rivals that are named (files in plan.rivals), the recipes of the faces, and names, sizes and
-// times of all other data. Throws Error(kInput).
-std::string key_of(const PaperPlan& plan, std::span<const char* const> rivals);
+// Hash over the contents of the plan's faces, photos, maps and objects (paper/folder_listing.h): a copy of them is the same data. It reads them, so it
+// is made once for all parts. Throws Error(kInput).
+std::string identity_of_data(const PaperPlan& plan);
+
+// Hash over the program, its weights, that data, and what a part alone asks for: weights of the rivals that are named (files in plan.rivals), and the
+// identity of other people's programs. Throws Error(kInput).
+std::string key_of(const PaperPlan& plan, const std::string& data, std::span<const char* const> rivals,
+                   const std::string& programs = {});
 
 // The part called `name`, from plan.output/cache or measured now and left there. Throws what `measure` does, and Error(kOutput).
 Sections cached_part(const PaperPlan& plan, const std::string& key, const std::string& name,
