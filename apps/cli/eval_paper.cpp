@@ -10,6 +10,7 @@
 #include "paper/print_pdf.h"
 #include "paper/report_notes.h"
 #include "paper/section_cache.h"
+#include "program_light_methods.h"
 #include "progress.h"
 
 #include <spdlog/spdlog.h>
@@ -35,10 +36,11 @@ struct Part {
   const char* name;
   Sections (*measure)(const PaperPlan&);
   std::span<const char* const> rivals = {};  // files of weights that it asks for
+  bool has_programs = false;                 // whether the plan's methods have rows in it
 };
 constexpr std::array kParts = {Part{"highlights", highlight_sections, kHighlightRivals},
                                Part{"objects", object_sections},
-                               Part{"relighting", relight_sections, kLightRivals},
+                               Part{"relighting", relight_sections, kLightRivals, true},
                                Part{"directions", direction_sections},
                                Part{"triangulation", room_sections},
                                Part{"ablations", ablation_sections}};
@@ -80,6 +82,7 @@ std::string made_with(const PaperPlan& plan) {
 
 int run(PaperPlan plan) {
   require_data(plan);
+  const std::string programs = identity_of_programs(plan.methods, plan.seconds);
   const eval::PaperReport earlier = plan.earlier.empty() ? eval::PaperReport() : read_report(plan.earlier);
   io::create_folder(plan.output);
   plan.progress = part_progress("synthetic faces");
@@ -89,7 +92,8 @@ int run(PaperPlan plan) {
   for (std::size_t i = 0; i < kParts.size(); ++i) {
     if (!plan.measures(kParts[i].name)) continue;
     plan.progress = part_progress(fmt::format("{}, part {} of {}", kParts[i].name, i + 1, kParts.size()));
-    Sections sections = cached_part(plan, key_of(plan, data, kParts[i].rivals), kParts[i].name, kParts[i].measure);
+    const std::string key = key_of(plan, data, kParts[i].rivals, kParts[i].has_programs ? programs : "");
+    Sections sections = cached_part(plan, key, kParts[i].name, kParts[i].measure);
     std::move(sections.begin(), sections.end(), std::back_inserter(report.sections));
     spdlog::info("part {} of {}, {}: done", i + 1, kParts.size(), kParts[i].name);
   }
@@ -140,6 +144,15 @@ CLI::App* add_eval_paper(CLI::App& eval, Action& action) {
       ->add_option("--rivals", plan->rivals,
                    "folder of weights of rival networks, such as mscr.safetensors; default: no such rows")
       ->type_name("DIR");
+  command
+      ->add_option("--method", plan->methods,
+                   "again and again: a program with a row in relighting, which reads case folders and writes maps as "
+                   "for `eval cases`; default: none")
+      ->type_name("NAME=COMMAND")
+      ->allow_extra_args(false);
+  command->add_option("--seconds", plan->seconds, "time that such a program has for one photo")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 86400));
   std::vector<std::string> parts;
   for (const Part& part : kParts) parts.emplace_back(part.name);
   command->add_option("--parts", plan->parts, "measure these parts alone, separated by commas; default: all")

@@ -50,3 +50,29 @@ case_eval_paper() {
   grep -q "^| Highlight layer" "$work/stdout" || fail "no headline of the highlights"
   expect_refused 3 "not what faceprobe wrote" eval results report/report.csv
 }
+
+# Other people's programs as rows, through case folders.
+case_eval_paper_programs() {
+  local limit_s=100  # the rows of our own are measured, too
+  expect_exit 0 synth --count 1 --size 64 --views 1 --lights 1 --skins-per-person 1 --seed 4 -o faces
+  printf '#!/bin/sh\ncp -- "$1/gt.hdr" "$2/map.hdr" && echo run >>runs\n' >copy.sh
+  printf '#!/bin/sh\nexit 3\n' >fails.sh
+  chmod +x ./*.sh
+  local plain=(eval paper --data . --quick --light faces --parts relighting -o report)
+  expect_refused 2 "{out}" "${plain[@]}" --method "mine=./copy.sh {case}"
+  expect_refused 2 "two methods called 'mine'" "${plain[@]}" --method "mine=./copy.sh {case} {out}" --method "mine=./fails.sh {case} {out}"
+  [ ! -e report ] || fail "a refusal left a folder"
+  local arguments=("${plain[@]}" --method "mine=./copy.sh {case} {out}" --method "theirs=./fails.sh {case} {out}")
+  expect_exit 0 "${arguments[@]}"
+  # Below 1 of 255: the map is stored in RGBE.
+  awk -F, '$1 == "relighting" && $2 == "Diffuse object" && $3 == "mine" && $4 == "mean" {found = $5 != "" && $5 < 1} END {exit !found}' \
+    report/report.csv || fail "the truth has an error under light"
+  grep -qF "theirs has no result for 1 photo: exit code 3." report/report.md || fail "no reason for what is missing"
+  # What is known is not run again; another program is.
+  expect_exit 0 "${arguments[@]}"
+  [ "$(wc -l <runs)" = 1 ] || fail "what was known was run again"
+  rm report/cache/relighting-*.json
+  expect_exit 0 "${arguments[@]}"
+  [ "$(wc -l <runs)" = 1 ] || fail "what a program wrote was not kept"
+  expect_refused 2 "two methods called 'transport'" "${plain[@]}" --method "transport=./copy.sh {case} {out}"
+}

@@ -26,7 +26,9 @@ struct PaperPlan {
   std::vector<std::string> parts;  // measured now; empty = all
   // report.json of an earlier run, for rows and parts that this one lacks (eval/earlier_rows.h); empty = none.
   std::filesystem::path earlier;
-  bool quick = false;  // few photos, for a look in minutes
+  std::vector<std::string> methods;  // NAME=COMMAND: other people's programs, rows of relighting (docs/cases.md)
+  int seconds = 120;                 // for such a program and photo
+  bool quick = false;                // few photos, for a look in minutes
   int threads = 0;
   std::function<void(int done, int total)> progress = {};  // within the part at hand
 

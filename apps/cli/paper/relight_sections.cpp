@@ -5,6 +5,7 @@
 #include "paper/plan.h"
 #include "paper/published.h"
 #include "paper/report_names.h"
+#include "program_light_methods.h"
 #include "relight_methods.h"
 #include "rival_light_methods.h"
 #include "scene_table.h"
@@ -120,6 +121,20 @@ eval::ReportSection sun_section(const eval::ScoreTable& table) {
   return section;
 }
 
+// Rows of the programs that the plan names; returns what they have no result of.
+std::string add_programs(std::vector<eval::LightMethod>& methods, const synth::ShardReader& faces,
+                         const PaperPlan& plan) {
+  ProgramRows rows{.methods = plan.methods,
+                   .seconds = plan.seconds,
+                   .samples = plan.light_photos(),
+                   .folder = plan.output / "cache",
+                   .progress = plan.progress};
+  for (const eval::LightMethod& method : methods) rows.taken.insert(method.name);
+  ProgramMethods programs = program_light_methods(faces, rows);
+  std::move(programs.methods.begin(), programs.methods.end(), std::back_inserter(methods));
+  return programs.missing;
+}
+
 }  // namespace
 
 Sections relight_sections(const PaperPlan& plan) {
@@ -128,6 +143,7 @@ Sections relight_sections(const PaperPlan& plan) {
   RivalMethods rivals = rival_light_methods(
       {.weights = plan.rivals, .maps = plan.data / "hdri" / "dev", .recipe = faces.recipe(), .threads = plan.threads});
   std::move(rivals.methods.begin(), rivals.methods.end(), std::back_inserter(methods));
+  const std::string programs_missing = add_programs(methods, faces, plan);
   const std::filesystem::path bunny = plan.data / "objects" / "stanford-bunny.obj";
   const bool has_bunny = std::filesystem::exists(bunny);
   const eval::LitObject object(has_bunny ? assets::load_object(bunny.string()) : eval::sphere_mesh(),
@@ -138,7 +154,7 @@ Sections relight_sections(const PaperPlan& plan) {
   if (std::filesystem::exists(scenes)) benchmark.scene = scene_of_maps(scenes, faces.recipe());
   const eval::RelightScores scores = eval::measure_relighting(faces, methods, object, benchmark);
   Sections sections = {object_section(scores, has_bunny), map_section(scores.table), sun_section(scores.table)};
-  sections[0].missing = rivals.missing;
+  sections[0].missing = rivals.missing + programs_missing;
   if (plan.training.empty()) {
     sections[0].missing +=
         " No row of knorr and kurz: it learns from traced training faces, which --training names. No row of mean light "
