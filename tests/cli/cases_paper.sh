@@ -76,3 +76,67 @@ case_eval_paper_programs() {
   [ "$(wc -l <runs)" = 1 ] || fail "what a program wrote was not kept"
   expect_refused 2 "two methods called 'transport'" "${plain[@]}" --method "transport=./copy.sh {case} {out}"
 }
+
+# bench/rivals.sh, with a program in the place of ours that trains nothing: what is done in which order, and what a stop leaves.
+case_rivals() {
+  local script=$here/../../bench/rivals.sh name
+  mkdir -p data/hdri/train data/hdri/dev data/faces/ict_facekit data/faces/london_uv_textures build/bin
+  touch data/hdri/{train,dev}.csv data/hdri/train/{hall,open3d_room}.hdr data/hdri/dev/field.hdr
+  cat >build/bin/faceprobe <<'END'
+#!/usr/bin/env bash
+# Leaves half weights where FAILS says so, and stops where STOPS does.
+echo "$*" >>calls
+while [ $# -gt 0 ]; do
+  if [ "$1" = -o ]; then out=$2; fi
+  shift
+done
+[ -n "${out:-}" ] || exit 0
+mkdir -p "$out"
+touch "$out/index.json"
+echo half >"$out/weights.safetensors"
+name=$(basename "$out")
+[ "$name" != "${FAILS:-}" ] || exit 4
+if [ "$name" = "${STOPS:-}" ]; then echo '{"finished":false,"steps":3}'; exit 0; fi
+echo "$name" >"$out/weights.safetensors"
+echo '{"finished":true,"steps":4}'
+END
+  chmod +x build/bin/faceprobe
+  # expect_rivals CODE ARGUMENT...
+  expect_rivals() {
+    local wanted=$1 found=0
+    shift
+    "$script" "$@" --build "$work/build" >"$work/stdout" 2>"$work/stderr" </dev/null || found=$?
+    [ "$found" = "$wanted" ] || fail "exit $found instead of $wanted: rivals.sh $*"
+  }
+  expect_rivals 2 data
+  expect_stderr "usage"
+  expect_rivals 2 nowhere weights
+  expect_stderr "nowhere/hdri/train"
+  expect_rivals 2 data weights nofaces
+  expect_stderr "nofaces/train"
+  [ ! -e calls ] || fail "something was run"
+
+  # One fails, and the last but one is stopped: what is whole is there, and nothing else.
+  FAILS=sky STOPS=mscr expect_rivals 1 data weights
+  expect_stderr "sky failed"
+  expect_stderr "mscr was stopped"
+  [ "$(cd weights && echo *.safetensors)" = "gardner.safetensors legendre.safetensors" ] || fail "other weights: $(ls weights)"
+  grep -q "^synth .*--split train --count 20000" calls || fail "no training faces"
+  [ "$(ls weights/work/maps)" = hall.hdr ] || fail "maps whose terms are not known were taken"
+  grep -q "^train gardner .*--scenes .*train.csv .*dev.csv -o weights/work/gardner" calls || fail "gardner was not told what is indoor"
+  # The same again makes what is missing, and no more.
+  rm calls
+  expect_rivals 0 data weights
+  ! grep -qE "^synth|gardner|legendre" calls || fail "what was there was made again"
+  for name in gardner sky legendre mscr shi; do
+    [ "$(cat "weights/$name.safetensors")" = "$name" ] || fail "the weights of $name are others"
+  done
+  rm calls
+  expect_rivals 0 data weights
+  ! grep -q "^train" calls || fail "what was there was trained again"
+  # Faces that somebody has.
+  rm calls
+  expect_rivals 0 data others weights/faces
+  ! grep -qE "^(synth|mesh)" calls || fail "given faces were made"
+  grep -q "^train legendre --data weights/faces/train --validation weights/faces/dev" calls || fail "given faces were not taken"
+}
