@@ -10,7 +10,10 @@
 #include <malloc.h>
 #include <spdlog/spdlog.h>
 
+#include <array>
+#include <charconv>
 #include <memory>
+#include <system_error>
 
 namespace faceprobe::cli {
 
@@ -22,11 +25,25 @@ struct Options {
   std::string preview;
   std::string mode = "default";
   std::string split = "all";
+  std::string lamp_distance;
   int preview_count = 64;
   int threads = 0;
   bool json = false;
   synth::Recipe recipe;
 };
+
+// "1,4" as those two numbers.
+std::array<double, 2> two_distances(const std::string& text) {
+  std::array<double, 2> distances{};
+  const char* const end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), end, distances[0]);
+  if (first.ec == std::errc() && first.ptr != end && *first.ptr == ',') {
+    const auto second = std::from_chars(first.ptr + 1, end, distances[1]);
+    if (second.ec == std::errc() && second.ptr == end) return distances;
+  }
+  throw Error(ExitCode::kUsage, "--lamp-distance is '" + text +
+                                    "'; wanted are two distances in metres with a comma between, such as 1,4.");
+}
 
 void show(const synth::RunState& state, Progress& progress) {
   const int made = state.samples_done - state.samples_found;
@@ -59,6 +76,7 @@ int run(Options options) {
   options.recipe.split = options.split == "train" ? synth::Split::kTrain
                          : options.split == "dev" ? synth::Split::kDev
                                                   : synth::Split::kAll;
+  if (!options.lamp_distance.empty()) options.recipe.lamp_distance_m = two_distances(options.lamp_distance);
   if (const std::string problem = options.recipe.validate(); !problem.empty()) throw Error(ExitCode::kUsage, problem);
   // A sample is made of pictures of some hundred kB that come and go by the thousand: memory given back to the system between
   // them would be cleared and mapped again each time, a tenth of the run.
@@ -123,6 +141,13 @@ void add_synth(CLI::App& program, Action& action) {
       ->capture_default_str();
   command->add_flag("--multi-face", recipe.multi_face,
                     "two to four people to a picture and lamps at known places among distant light; from 192 px");
+  command->add_option("--people", recipe.people, "with --multi-face: people to a picture; default: two to four, drawn");
+  command->add_option("--lamps", recipe.lamps,
+                      "with --multi-face: lamps of a picture, 0 for distant light alone; default: one to three, drawn");
+  command
+      ->add_option("--lamp-distance", options->lamp_distance,
+                   "with --multi-face: metres of every lamp from every face; default: 0.55 at least")
+      ->type_name("LOW,HIGH");
   command->add_option("--views", recipe.views_per_person, "poses of each person")->capture_default_str();
   command->add_option("--lights", recipe.samples_per_view, "maps that light each pose")->capture_default_str();
   command->add_option("--skins-per-person", recipe.skins_per_person, "skins that take turns")->capture_default_str();

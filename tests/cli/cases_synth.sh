@@ -24,6 +24,10 @@ case_synth() {
 case_synth_refusals() {
   expect_refused 2 "size is 8" synth --count 1 --size 8 -o out
   expect_refused 2 "too small for several faces" synth --count 1 --size 64 --multi-face -o out
+  expect_refused 2 "people is 5" synth --count 1 --size 192 --multi-face --people 5 -o out
+  expect_refused 2 "add multi-face" synth --count 1 --lamps 2 -o out
+  expect_refused 2 "such as 1,4" synth --count 1 --size 192 --multi-face --lamp-distance 3 -o out
+  expect_refused 2 "4 to 1 m" synth --count 1 --size 192 --multi-face --lamp-distance 4,1 -o out
   expect_refused 2 "--mode" synth --mode magic -o out
   expect_refused 3 "nowhere" synth --heads nowhere -o out
   expect_refused 3 "nowhere" synth --maps nowhere -o out

@@ -6,7 +6,9 @@
 //
 //   const Recipe recipe{.count = 20000, .size_px = 128, .seed = 7, .split = Split::kTrain};
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace faceprobe::synth {
@@ -27,6 +29,11 @@ struct Recipe {
   Split split = Split::kAll;  // kTrain leaves out every sixth texture, kDev uses only those; identities differ too
   bool multi_face =
       false;  // two to four people to a picture, lit by lamps at known places, for triangulation; from 192 px on
+  // Of multi_face alone. None of these changes what else is drawn.
+  std::optional<int> people = {};  // in each group, 2 to 4; none = drawn for each
+  std::optional<int> lamps = {};  // of each sample, 0 to 8; 0 = the map alone lights it, as it is; none = one to three, drawn
+  // Metres of each lamp from every face, low and high, within 0.6 and 20; none = anywhere in the room, 0.55 and its radius at least.
+  std::optional<std::array<double, 2>> lamp_distance_m = {};
   int views_per_person = 4;     // of each person, or of each group
   int samples_per_view = 16;    // maps, with their turns
   int skins_per_person = 4;     // textures and tones that take turns over a view's samples
@@ -42,7 +49,7 @@ struct Recipe {
   int person_count() const { return (count + samples_per_person() - 1) / samples_per_person(); }
 };
 
-// One JSON object with every field.
+// One JSON object with every field; `people`, `lamps` and `lamp_distance_m` where they are given.
 std::string to_json(const Recipe& recipe);
 
 }  // namespace faceprobe::synth

@@ -139,7 +139,7 @@ std::vector<ViewSamples> generate_person(const Assets& assets, const Recipe& rec
                                    Eigen::Vector3f::Constant(map_gain[k]), grid);
         if (recipe.multi_face) {
           Random lamp_random = view_random.split(static_cast<std::uint64_t>(s)).split(2);
-          lights[k].near = draw_lamps(people, view.camera, lamp_random);
+          lights[k].near = draw_lamps(people, view.camera, recipe, lamp_random);
         }
       }
     });

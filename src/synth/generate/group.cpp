@@ -48,7 +48,8 @@ std::vector<Person> draw_people(const Assets& assets, const Recipe& recipe, int 
     return people;
   }
   Random random = scene_random(recipe, number).split(kPlaces);
-  const int count = 2 + random.below(kMostPeople - 1);
+  const int drawn = 2 + random.below(kMostPeople - 1);
+  const int count = recipe.people.value_or(drawn);
   const double distance_m = random.between(1.3, 2.8);
   std::vector<double> along(static_cast<std::size_t>(count), 0.0);
   for (std::size_t i = 1; i < along.size(); ++i) along[i] = along[i - 1] + random.between(kShoulders, 0.95);

@@ -21,7 +21,10 @@ SampleDraw draw_sample(const Assets& assets, const Recipe& recipe, Random& rando
   SampleDraw draw;
   draw.map = random.below(static_cast<int>(assets.maps.size()));
   draw.map_yaw = static_cast<float>(random.between(-kPi, kPi));
-  if (recipe.multi_face) draw.map_level = static_cast<float>(random.log_between(0.03, 0.5));
+  if (recipe.multi_face) {
+    const auto level = static_cast<float>(random.log_between(0.03, 0.5));
+    if (recipe.lamps != 0) draw.map_level = level;  // beside no lamp the map is not dimmed
+  }
   draw.skin = index % recipe.skins_per_person;
   if (recipe.mode == Mode::kPaper) {
     draw.sensor = {.blur_px = 0, .vignetting = 0, .read_noise = 0, .shot_noise = 0, .sharpening = 0, .jpeg_quality = 0};

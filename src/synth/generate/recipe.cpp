@@ -1,13 +1,38 @@
 #include "faceprobe/synth/recipe.h"
 
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 namespace faceprobe::synth {
 namespace {
 
+constexpr int kFewestPeople = 2, kMostPeople = 4;
+constexpr int kMostLamps = 8;
+constexpr double kLeastLampDistance = 0.6, kMostLampDistance = 20;  // metres
+
 std::string out_of_range(const char* name, long long value, long long low, long long high) {
   return std::string(name) + " is " + std::to_string(value) + "; allowed is " + std::to_string(low) + " to " +
          std::to_string(high) + ".";
+}
+
+// What is asked of groups.
+std::string group_fault(const Recipe& recipe) {
+  const bool asked = recipe.people || recipe.lamps || recipe.lamp_distance_m;
+  if (asked && !recipe.multi_face) return "People, lamps and their distance are asked of groups; add multi-face.";
+  if (recipe.people && (*recipe.people < kFewestPeople || *recipe.people > kMostPeople))
+    return out_of_range("people", *recipe.people, kFewestPeople, kMostPeople);
+  if (recipe.lamps && (*recipe.lamps < 0 || *recipe.lamps > kMostLamps))
+    return out_of_range("lamps", *recipe.lamps, 0, kMostLamps);
+  if (!recipe.lamp_distance_m) return {};
+  const auto [low, high] = *recipe.lamp_distance_m;
+  if (!(low >= kLeastLampDistance && low < high && high <= kMostLampDistance)) {
+    std::ostringstream text;
+    text << "lamp distance is " << low << " to " << high << " m; allowed is from a lower to a higher one within "
+         << kLeastLampDistance << " to " << kMostLampDistance << ".";
+    return text.str();
+  }
+  if (recipe.lamps == 0) return "A distance is asked of lamps, and there are 0; leave one of them out.";
+  return {};
 }
 
 const char* name_of(Mode mode) { return mode == Mode::kPaper ? "paper" : "default"; }
@@ -50,11 +75,11 @@ std::string Recipe::validate() const {
            std::to_string(kLeastGroupPx) + " to 1024.";
   }
   if (multi_face && mode == Mode::kPaper) return "the paper's mode has one face to a picture; leave out multi-face.";
-  return {};
+  return group_fault(*this);
 }
 
 std::string to_json(const Recipe& recipe) {
-  const nlohmann::ordered_json json = {
+  nlohmann::ordered_json json = {
       {"count", recipe.count},
       {"size_px", recipe.size_px},
       {"seed", recipe.seed},
@@ -69,6 +94,10 @@ std::string to_json(const Recipe& recipe) {
       {"bounce_rays", recipe.bounce_rays},
       {"environment_height", recipe.environment_height},
   };
+  // Recipes without them read as before there were any, so that older data sets are known again.
+  if (recipe.people) json["people"] = *recipe.people;
+  if (recipe.lamps) json["lamps"] = *recipe.lamps;
+  if (recipe.lamp_distance_m) json["lamp_distance_m"] = *recipe.lamp_distance_m;
   return json.dump();
 }
 
