@@ -73,11 +73,14 @@ std::string made_with(const PaperPlan& plan) {
     return std::min(wanted, synth::ShardReader(faces).sample_count());
   };
   return fmt::format(
-      "Faceprobe {}. {} photos for highlights, {} for light, {} groups; synthetic faces of people, skins and lights "
+      "Faceprobe {}. {} photos for highlights, {} for light, {} groups{}; synthetic faces of people, skins and lights "
       "that no network was "
       "trained on, photos and HDR maps as docs/data.md names them.{}",
       kVersion, of(plan.faces, plan.highlight_photos()), of(plan.light, plan.light_photos()),
-      of(plan.groups, plan.group_photos()), plan.quick ? " A quick run: too few photos to compare methods by." : "");
+      of(plan.groups, plan.group_photos()),
+      plan.distant.empty() ? ""
+                           : fmt::format(" and {} under distant light alone", of(plan.distant, plan.distant_photos())),
+      plan.quick ? " A quick run: too few photos to compare methods by." : "");
 }
 
 int run(PaperPlan plan) {
@@ -136,6 +139,11 @@ CLI::App* add_eval_paper(CLI::App& eval, Action& action) {
       ->type_name("DIR");
   command->add_option("--light", plan->light, "synthetic faces of 256 px; default: made likewise")->type_name("DIR");
   command->add_option("--groups", plan->groups, "synthetic groups; default: made likewise")->type_name("DIR");
+  command
+      ->add_option("--distant", plan->distant,
+                   "synthetic groups under distant light alone (synth --lamps 0); default: made likewise, but not "
+                   "measured where --groups names some")
+      ->type_name("DIR");
   command
       ->add_option("--training", plan->training,
                    "traced training faces, for the rows that learn from them; default: no such rows")

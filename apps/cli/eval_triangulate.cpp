@@ -63,12 +63,17 @@ int eval_triangulate(const EvalOptions& options) {
   fmt::print("Up to {} photos of {}.\n", options.samples, options.data);
   fmt::print("\n### Share of the faces that were found\n\n{}", table.markdown("face_found", 2));
   fmt::print("\n### Faces, metres from where they are\n\n{}", table.markdown("face_m", 2));
-  fmt::print("\n### Lamps, metres from where they are; missing = not found\n\n{}", table.markdown("lamp_m", 2));
-  fmt::print("\n### Share of the lamps that were found\n\n{}", table.markdown("found", 2));
-  fmt::print("\n### Share of the lamps that were found within .4 m\n\n{}", table.markdown("within", 2));
-  fmt::print("\n### Share of found lamps inside the ellipsoid that is stated for 95 %\n\n{}",
-             table.markdown("covered", 2));
+  if (table.metrics().contains("found")) {
+    fmt::print("\n### Lamps, metres from where they are; missing = not found\n\n{}", table.markdown("lamp_m", 2));
+    fmt::print("\n### Share of the lamps that were found\n\n{}", table.markdown("found", 2));
+    fmt::print("\n### Share of the lamps that were found within .4 m\n\n{}", table.markdown("within", 2));
+    fmt::print("\n### Share of found lamps inside the ellipsoid that is stated for 95 %\n\n{}",
+               table.markdown("covered", 2));
+  } else {
+    fmt::print("\nNo photo has a near lamp: all that are found are invented.\n");
+  }
   fmt::print("\n### Lamps a photo that are not there\n\n{}", table.markdown("invented", 2));
+  fmt::print("\n### Share of the photos with such a lamp\n\n{}", table.markdown("inventing", 2));
   if (options.output.empty()) return 0;
   const std::filesystem::path folder = options.output;
   io::create_folder(folder);

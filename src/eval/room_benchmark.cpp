@@ -83,7 +83,8 @@ void add_lamps(const std::string& method, const std::string& sample, const std::
   }
   int near = 0;
   for (const lighting::Lamp& lamp : found) near += lamp.near ? 1 : 0;
-  table.add({method, sample, {}, {{"invented", static_cast<double>(near - matched)}}});
+  const int invented = near - matched;
+  table.add({method, sample, {}, {{"invented", static_cast<double>(invented)}, {"inventing", invented > 0 ? 1.0 : 0.0}}});
 }
 
 }  // namespace

@@ -10,13 +10,17 @@ case_eval_paper() {
   # One photo of each kind is too few to say anything, and enough for every part to run.
   expect_exit 0 synth --count 1 --size 64 --views 1 --lights 1 --skins-per-person 1 --seed 4 -o faces
   expect_exit 0 synth --count 1 --size 192 --views 1 --lights 1 --multi-face --seed 4 -o groups
-  local arguments=(eval paper --data . --quick --faces faces --light faces --groups groups -o report)
+  expect_exit 0 synth --count 1 --size 192 --views 1 --lights 1 --multi-face --people 2 --lamps 0 --seed 4 -o distant
+  local arguments=(eval paper --data . --quick --faces faces --light faces --groups groups --distant distant -o report)
   expect_exit 0 "${arguments[@]}"
   local file part
   for file in html json csv md; do [ -s "report/report.$file" ] || fail "no report.$file"; done
   for part in "Highlight layers of synthetic faces" "An object in the light that was found" "Lamps from several faces" "What each part is worth"; do
     grep -qF "## $part" report/report.md || fail "no section '$part'"
   done
+  grep -qF "under distant light alone with a lamp that is not there" report/report.md || fail "no invented lamps are told of"
+  expect_exit 0 eval triangulate --data distant --samples 1
+  expect_stdout "No photo has a near lamp"
   # What there is no data for is said.
   grep -qF "mscr.safetensors" report/report.html || fail "missing rivals are not named"
   json report/report.json sections >/dev/null

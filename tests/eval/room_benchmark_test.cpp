@@ -10,9 +10,9 @@ namespace {
 
 const Eigen::Vector3f kLamp(0.3F, 0.8F, -0.7F);
 
-// Two people and one lamp; the pictures do not matter here.
+// Two people and one lamp, or none; the pictures do not matter here.
 struct SmallGroup {
-  SmallGroup() {
+  explicit SmallGroup(bool lit = true) {
     constexpr int kSize = 32;
     synth::ViewSamples out;
     out.view.normal = Image(kSize, kSize, 3);
@@ -31,7 +31,7 @@ struct SmallGroup {
     sample.highlight = sample.diffuse = sample.albedo = sample.shading = Image(kSize, kSize, 3);
     sample.environment = EnvMap(4, 2);
     sample.settings_json = "{}";
-    sample.lamps = {{kLamp, 0.1F, {5, 5, 5}}};
+    if (lit) sample.lamps = {{kLamp, 0.1F, {5, 5, 5}}};
     out.samples.push_back(sample);
     const synth::ShardWriter writer(path(), {.size_px = kSize, .environment_height = 2, .recipe = "{}"});
     writer.write(0, std::vector<synth::ViewSamples>{out});
@@ -106,7 +106,34 @@ TEST(RoomBenchmark, WhatIsNotFoundIsMissingAndWhatIsNotThereIsInvented) {
                     },
                     {.samples = 1});
   EXPECT_EQ(mean(ghost, "invented", "faces known"), 1);
+  EXPECT_EQ(mean(ghost, "inventing", "faces known"), 1);
   EXPECT_THROW(measure_rooms(groups, nullptr, {.samples = 0}), Error);
+}
+
+TEST(RoomBenchmark, UnderDistantLightAloneEveryLampIsInvented) {
+  const SmallGroup small(false);
+  const synth::ShardReader groups(small.path());
+  // A lamp in the middle of the room that is not there ...
+  const ScoreTable table = measure_rooms(groups, [](const PhotoInput&) { return see({0, 0, 0}); }, {.samples = 1});
+  for (const char* method : {"faces as found", "faces known"}) {
+    EXPECT_EQ(mean(table, "invented", method), 1);
+    EXPECT_EQ(mean(table, "inventing", method), 1);
+  }
+  EXPECT_FALSE(table.metrics().contains("found"));
+  EXPECT_EQ(mean(table, "face_found", "faces as found"), 1);
+  // ... and light from one direction for both faces, which is no lamp.
+  const ScoreTable distant = measure_rooms(groups,
+                                           [](const PhotoInput&) {
+                                             std::vector<lighting::FaceLights> faces = see({0, 0, 0});
+                                             for (lighting::FaceLights& face : faces) {
+                                               face.lights[0].direction = Eigen::Vector3d(0.3, 0.5, 0.8).normalized();
+                                               face.lights[0].irradiance = 1;
+                                             }
+                                             return faces;
+                                           },
+                                           {.samples = 1});
+  EXPECT_EQ(mean(distant, "invented", "faces as found"), 0);
+  EXPECT_EQ(mean(distant, "inventing", "faces as found"), 0);
 }
 
 }  // namespace

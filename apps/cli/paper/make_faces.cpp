@@ -24,8 +24,20 @@ synth::Recipe groups_recipe(bool quick) {
           .seed = 3,
           .split = synth::Split::kDev,
           .multi_face = true,
+          .people = 3,
+          .lamps = 2,
+          .lamp_distance_m = {{1.0, 4.0}},
           .views_per_person = 1,
           .samples_per_view = 1};
+}
+// Other people than the groups above, under their maps alone.
+synth::Recipe distant_recipe(bool quick) {
+  synth::Recipe recipe = groups_recipe(quick);
+  recipe.count = quick ? 2 : 20;
+  recipe.seed = 4;
+  recipe.lamps = 0;
+  recipe.lamp_distance_m.reset();
+  return recipe;
 }
 
 }  // namespace
@@ -41,7 +53,10 @@ void make_paper_faces(PaperPlan& plan) {
   const std::vector<Set> sets = {
       {&plan.faces, "faces", faces_recipe(plan.quick), true, plan.measures("highlights")},
       {&plan.light, "light", light_recipe(plan.quick), true, plan.measures("relighting") || plan.measures("ablations")},
-      {&plan.groups, "groups", groups_recipe(plan.quick), false, plan.measures("triangulation")}};
+      {&plan.groups, "groups", groups_recipe(plan.quick), false, plan.measures("triangulation")},
+      // Beside groups that are made: who names some measures those.
+      {&plan.distant, "distant", distant_recipe(plan.quick), false,
+       plan.measures("triangulation") && plan.groups.empty()}};
   synth::Assets assets;
   for (const Set& set : sets) {
     if (!set.needed || !set.folder->empty()) continue;

@@ -19,6 +19,7 @@ struct PaperPlan {
   std::filesystem::path faces;   // 128 px: highlights
   std::filesystem::path light;   // 256 px: light
   std::filesystem::path groups;  // several faces under near lamps: triangulation
+  std::filesystem::path distant;  // the like under distant light alone; made only where `groups` is, else empty = not measured
   // Traced training faces, for the rows that learn from them; empty = no such rows.
   std::filesystem::path training;
   // Weights of the rivals that are networks, trained on the same data (docs/training.md), NAME.safetensors each; empty = no such rows.
@@ -38,6 +39,7 @@ struct PaperPlan {
   int light_photos() const { return quick ? 8 : 100; }
   int ablation_photos() const { return quick ? 6 : 50; }
   int group_photos() const { return quick ? 2 : 100; }
+  int distant_photos() const { return quick ? 2 : 20; }
   int direction_step() const { return quick ? 12 : 1; }  // every n-th photo and person
   int picture_rows() const { return quick ? 4 : 8; }
 };

@@ -44,7 +44,7 @@ std::optional<Sections> read_sections(const fs::path& file) {
 
 std::string identity_of_data(const PaperPlan& plan) {
   std::string text;
-  for (const fs::path& folder : {plan.faces, plan.light, plan.groups, plan.training})
+  for (const fs::path& folder : {plan.faces, plan.light, plan.groups, plan.distant, plan.training})
     text += folder.empty() ? "none" : hash_of_faces(folder) + listing_of(folder);
   for (const char* part : {"real", "hdri/dev", "objects"}) text += part + listing_of(plan.data / part);
   if (fs::exists(plan.data / "hdri" / "dev.csv")) text += hash_of_file(plan.data / "hdri" / "dev.csv");

@@ -1,6 +1,6 @@
 #pragma once
 // Lamps placed from several faces against synthetic groups whose lamps are known (`faceprobe synth --multi-face`): the paper's Sec. 5.4 on as
-// many scenes as one likes.
+// many scenes as one likes; and groups under distant light alone, where no lamp is to be found.
 //
 //   const synth::ShardReader groups("groups");
 //   const eval::ScoreTable scores = eval::measure_rooms(groups, look, {.samples = 100});
@@ -32,7 +32,8 @@ struct RoomBenchmark {
 // Rows: one a photo and lamp, or face, methods "faces as found" and "faces known". Metrics: face_m (distance of a face from where it is, NaN
 // where it was not found), face_found (1 or 0, of the faces shown), lamp_m (of a lamp, NaN where it was not found), found (1 or 0), within
 // (1 where it was found and no further off than near_m, of all lamps), covered (1 where the stated ellipsoid of 95 % holds the truth, else
-// 0), invented (near lamps in the photo that are none of the true ones). Throws Error(kUsage) for options that do not validate.
+// 0), invented (near lamps in the photo that are none of the true ones), inventing (1 where there is such a one, else 0). Photos under distant
+// light alone (`--lamps 0`) have the faces' metrics and the last two. Throws Error(kUsage) for options that do not validate.
 ScoreTable measure_rooms(const synth::ShardReader& groups, const LookAtGroup& look, const RoomBenchmark& options);
 
 }  // namespace faceprobe::eval
