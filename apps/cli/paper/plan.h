@@ -19,7 +19,7 @@ struct PaperPlan {
   std::filesystem::path faces;   // 128 px: highlights
   std::filesystem::path light;   // 256 px: light
   std::filesystem::path groups;  // several faces under near lamps: triangulation
-  std::filesystem::path distant;  // the like under distant light alone; made only where `groups` is, else empty = not measured
+  std::filesystem::path distant;  // the like under distant light alone; made where `groups` is, else empty = not measured
   // Traced training faces, for the rows that learn from them; empty = no such rows.
   std::filesystem::path training;
   // Weights of the rivals that are networks, trained on the same data (docs/training.md), NAME.safetensors each; empty = no such rows.

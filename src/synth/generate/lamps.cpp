@@ -50,6 +50,7 @@ bool serves(const NearLight& lamp, std::span<const Person> people) {
 // From the middle of the faces; the camera is as far in front of them as it is from that middle.
 Eigen::Vector3d draw_place(const Recipe& recipe, double camera_m, Random& random) {
   if (!recipe.lamp_distance_m) {
+    // Braces or names would order these draws otherwise than older data sets have them.
     return Eigen::Vector3d(random.between(-2.2, 2.2), random.between(kLowest, kHighest),
                            random.between(0.2, camera_m + 1.2));
   }
