@@ -5,7 +5,7 @@
 #   bench/measurements.sh --data DIR [BUILD_DIR]
 #   bench/measurements.sh --data DIR --only robustness [BUILD_DIR]   one of: best_case separation highlight_makehuman highlight_photos
 #                                                                    highlight_people highlight_net geometry shading region_photos
-#                                                                    surface_photos robustness speed page readme insert
+#                                                                    surface_photos robustness speed solve page readme insert
 #                                                                    insert_cycles synth_cycles synth_speed synth_rate
 #   bench/measurements.sh --data DIR --faces FACES ...      for highlight_people, geometry and shading: the dev faces of docs/training.md;
 #                                                           they are left as they are without them
@@ -19,7 +19,7 @@ set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 sections=(best_case separation highlight_makehuman highlight_photos highlight_people highlight_net geometry shading
-          region_photos surface_photos robustness speed page readme insert insert_cycles synth_cycles synth_speed synth_rate)
+          region_photos surface_photos robustness speed solve page readme insert insert_cycles synth_cycles synth_speed synth_rate)
 data=
 faces=
 training=
@@ -61,6 +61,7 @@ title_of() {
     surface_photos) echo "Albedo of photos" ;;
     robustness) echo "Many kinds of photo" ;;
     speed) echo "Time and memory" ;;
+    solve) echo "Solving for the light: against the same products elsewhere, by patches and by cells" ;;
     page) echo "The page" ;;
     readme) echo "From a clone to a lit object in Blender" ;;
     insert) echo "Inserted objects against the same in the true light" ;;
@@ -78,6 +79,7 @@ command_of() {
     highlight_makehuman) echo "bench/makehuman.sh --data DIR" ;;
     highlight_people) echo "bench/people.sh --data DIR --faces FACES --training TRAINING" ;;
     speed) echo "bench/speed.sh" ;;
+    solve) echo "BUILD/bin/bench_solve" ;;
     page) echo "bench/page.sh build/release/bin/faceprobe .deps/data/samples" ;;
     readme) echo "bench/readme.sh" ;;
     insert) echo "BUILD/bin/faceprobe eval insert --data LIGHT --samples 50" ;;
@@ -95,6 +97,7 @@ run_section() {
     highlight_makehuman) "$root/bench/makehuman.sh" --data "$data" "$build" ;;
     highlight_people) "$root/bench/people.sh" --data "$data" --faces "$faces" --training "$training" "$build" ;;
     speed) "$root/bench/speed.sh" ;;
+    solve) "$build/bin/bench_solve" ;;
     page) "$root/bench/page.sh" "$root/build/release/bin/faceprobe" "$root/.deps/data/samples" ;;
     readme) "$root/bench/readme.sh" ;;
     insert) "$build/bin/faceprobe" eval insert --data "$light" --samples 50 ;;

@@ -1,6 +1,7 @@
 #include "cycles/run_blender.h"
 
 #include "faceprobe/core/error.h"
+#include "support/shell_word.h"
 
 #include <array>
 #include <cstdio>
@@ -8,26 +9,17 @@
 #include <memory>
 
 namespace faceprobe::bench {
-namespace {
-
-std::string quoted(const std::string& word) {
-  std::string out = "'";
-  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
-
-}  // namespace
 
 bool run_blender(const std::string& blender, const std::filesystem::path& script, const std::filesystem::path& job,
                  const std::filesystem::path& log) {
-  const std::string command = quoted(blender) + " --background --factory-startup --python-exit-code 1 --python " +
-                              quoted(script.string()) + " -- " + quoted(job.string()) + " > " + quoted(log.string()) +
-                              " 2>&1";
+  const std::string command = shell_word(blender) + " --background --factory-startup --python-exit-code 1 --python " +
+                              shell_word(script.string()) + " -- " + shell_word(job.string()) + " > " +
+                              shell_word(log.string()) + " 2>&1";
   return std::system(command.c_str()) == 0;
 }
 
 std::string blender_version(const std::string& blender) {
-  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen((quoted(blender) + " --version 2>/dev/null").c_str(), "r"),
+  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen((shell_word(blender) + " --version 2>/dev/null").c_str(), "r"),
                                                    pclose);
   std::array<char, 200> line{};
   if (!pipe || !std::fgets(line.data(), static_cast<int>(line.size()), pipe.get())) return {};
