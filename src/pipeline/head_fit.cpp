@@ -12,7 +12,7 @@
 namespace faceprobe::pipeline {
 namespace {
 
-constexpr int kRounds = 12;
+constexpr int kFitRounds = 12;
 constexpr double kLandmarkNoise = 0.02;       // of the face's width: how far the network's points stray
 constexpr double kExpressionDeviation = 0.2;  // photos for skin are near neutral
 constexpr double kMaxIdentity = 3.0;          // standard deviations
@@ -148,7 +148,7 @@ HeadFit fit_head(const synth::HeadModel& model, const LandmarkPairs& pairs, cons
     ridge(m) = noise_px * noise_px / (deviation * deviation);
   }
   Eigen::VectorXd weights = Eigen::VectorXd::Zero(shape.modes.cols());
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kFitRounds; ++round) {
     const Step step = linearise(shape, weights, pose, camera, wanted);
     // Pose alone first: it is what is farthest off.
     const Eigen::Index free = round < 3 ? 6 : step.jacobian.cols();

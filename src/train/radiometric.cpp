@@ -14,7 +14,7 @@ namespace {
 constexpr int kLowestCode = 8;
 constexpr int kHighestCode = 247;
 constexpr int kSteps = 24;   // of the search, each side of sRGB
-constexpr int kBlocks = 16;  // the halves of the skin take turns in this many strips, so that both see light and shade
+constexpr int kStrips = 16;  // the halves of the skin take turns in this many strips, so that both see light and shade
 
 // Of the odds: code^c / (code^c + (1 - code)^c).
 double bent(double code, double contrast) {
@@ -67,7 +67,7 @@ std::array<Gram, 2> grams(const SkinTriples& odds, double contrast) {
   const Eigen::Index count = odds.middle.rows();
   for (Eigen::Index i = 0; i < count; ++i) {
     const Change one = change(odds, i, contrast);
-    sums[static_cast<std::size_t>(i * kBlocks / count % 2)] +=
+    sums[static_cast<std::size_t>(i * kStrips / count % 2)] +=
         one.log_light.transpose() * one.log_light / one.noise_variance;
   }
   return sums;
