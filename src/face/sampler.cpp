@@ -1,11 +1,11 @@
 #include "face/sampler.h"
 
+#include "face/warp.h"
 #include "faceprobe/core/color.h"
 #include "faceprobe/core/quantile.h"
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
 #include <utility>
 
 namespace faceprobe::face {
@@ -34,17 +34,12 @@ Eigen::Vector2f SquareRegion::photo_from_unit(float u, float v) const {
           centre.y() + std::sin(angle) * dx + std::cos(angle) * dy};
 }
 
-Sampler::Sampler(const Image& linear) {
-  // OpenCV has no read-only view; nothing writes through this one.
-  levels_.emplace_back(linear.height(), linear.width(), CV_32FC(linear.channels()), const_cast<float*>(linear.data()));
+Sampler::Sampler(const Image& linear) : photo_(&linear) {
   constexpr int kSmallest = 64;
-  while (std::min(levels_.back().cols, levels_.back().rows) >= 2 * kSmallest) {
-    const cv::Mat& last = levels_.back();
-    // An odd last column or row would be squeezed in by a plain resize and shift everything; it is dropped instead.
-    const cv::Rect even(0, 0, last.cols / 2 * 2, last.rows / 2 * 2);
-    cv::Mat half;
-    cv::resize(last(even), half, {even.width / 2, even.height / 2}, 0, 0, cv::INTER_AREA);
-    levels_.push_back(half);
+  const Image* last = photo_;
+  while (std::min(last->width(), last->height()) >= 2 * kSmallest) {
+    halved_.push_back(half_size(*last));
+    last = &halved_.back();
   }
 }
 
@@ -53,11 +48,11 @@ void Sampler::expose(const SquareRegion& region) {
   constexpr double kQuantile = 0.98;
   constexpr float kDark = 0.3F;    // below, the networks begin to miss faces
   constexpr float kBright = 1.0F;  // above, HDR pictures clip
-  const cv::Mat small = warp(region, kSize);
+  const Image small = warp(region, kSize);
   std::vector<float> levels;
   for (int y = 0; y < kSize; ++y) {
     for (int x = 0; x < kSize; ++x) {
-      const float* pixel = small.ptr<float>(y, x);
+      const float* pixel = small.pixel(x, y);
       const float level = small.channels() == 3 ? luminance(pixel) : pixel[0];
       if (level > 0) levels.push_back(level);  // what lies outside the photo does not count
     }
@@ -69,34 +64,32 @@ void Sampler::expose(const SquareRegion& region) {
   if (level > kBright) gain_ = kBright / level;
 }
 
-cv::Mat Sampler::warp(const SquareRegion& region, int size) const {
+Image Sampler::warp(const SquareRegion& region, int size) const {
   const float photo_px_per_sample = region.side / static_cast<float>(size);
   // The level at which a sample steps over one to two pixels: bilinear interpolation still sees them all.
   const int wanted = static_cast<int>(std::floor(std::log2(std::max(photo_px_per_sample, 1.0F)) + 0.2F));
-  const int depth = std::min(wanted, static_cast<int>(levels_.size()) - 1);
-  const cv::Mat& source = levels_[static_cast<std::size_t>(depth)];
+  const int depth = std::min(wanted, static_cast<int>(halved_.size()));
+  const Image& source = depth > 0 ? halved_[static_cast<std::size_t>(depth - 1)] : *photo_;
   const double shrink = std::ldexp(1.0, -depth);
   const double step = static_cast<double>(photo_px_per_sample) * shrink;
   const double c = std::cos(static_cast<double>(region.angle)) * step;
   const double s = std::sin(static_cast<double>(region.angle)) * step;
-  // warpAffine counts from pixel centres, we from pixel corners.
+  // The warp counts from pixel centres, we from pixel corners.
   const double half = 0.5 * (size - 1);
   const double cx = region.centre.x() * shrink - 0.5;
   const double cy = region.centre.y() * shrink - 0.5;
-  const cv::Matx23d source_from_sample(c, -s, cx - (c - s) * half, s, c, cy - (s + c) * half);
-  cv::Mat sampled;
-  cv::warpAffine(source, sampled, source_from_sample, {size, size}, cv::INTER_LINEAR | cv::WARP_INVERSE_MAP,
-                 cv::BORDER_CONSTANT, cv::Scalar::all(0));
-  return sampled;
+  Affine source_from_sample;
+  source_from_sample << c, -s, cx - (c - s) * half, s, c, cy - (s + c) * half;
+  return warp_square(source, source_from_sample, size);
 }
 
 void Sampler::sample(const SquareRegion& region, int size, float low, float high, float* out) const {
-  const cv::Mat sampled = warp(region, size);
+  const Image sampled = warp(region, size);
   const std::vector<float>& table = encode_table();
   const int channels = sampled.channels();
   const float to_step = gain_ * kEncodeSteps;
   for (int y = 0; y < size; ++y) {
-    const float* row = sampled.ptr<float>(y);
+    const float* row = sampled.pixel(0, y);
     for (int x = 0; x < size; ++x, out += 3) {
       for (int k = 0; k < 3; ++k) {
         const float light = row[x * channels + (channels == 3 ? k : 0)] * to_step;

@@ -5,7 +5,6 @@
 #include "faceprobe/core/image.h"
 
 #include <Eigen/Core>
-#include <opencv2/core.hpp>
 #include <vector>
 
 namespace faceprobe::face {
@@ -25,8 +24,8 @@ class Sampler {
   // `linear` has 1 or 3 channels and must outlive the sampler.
   explicit Sampler(const Image& linear);
 
-  int width() const { return levels_.front().cols; }
-  int height() const { return levels_.front().rows; }
+  int width() const { return photo_->width(); }
+  int height() const { return photo_->height(); }
   // From here on light is multiplied so that the photo, or the square, is neither black nor burnt out. A photo that is
   // well exposed stays as it is.
   void expose() {
@@ -40,10 +39,11 @@ class Sampler {
   void sample(const SquareRegion& region, int size, float low, float high, float* out) const;
 
  private:
-  cv::Mat warp(const SquareRegion& region, int size) const;
+  Image warp(const SquareRegion& region, int size) const;
 
-  std::vector<cv::Mat> levels_;  // level i is halved i times
-  float gain_ = 1;               // of light, before it is encoded
+  const Image* photo_;
+  std::vector<Image> halved_;  // number i is halved i + 1 times
+  float gain_ = 1;             // of light, before it is encoded
 };
 
 }  // namespace faceprobe::face
