@@ -24,6 +24,7 @@ void add_synth(CLI::App& program, Action& action);
 void add_mesh(CLI::App& program, Action& action);
 void add_trace(CLI::App& program, Action& action);
 CLI::App* add_unwrap(CLI::App& synth, Action& action);  // under synth
+CLI::App* add_pack(CLI::App& synth, Action& action);    // under synth
 void add_train(CLI::App& program, Action& action);
 void add_finetune(CLI::App& program, Action& action);
 void add_eval(CLI::App& program, Action& action);

@@ -10,10 +10,12 @@
 #include <malloc.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <memory>
 #include <system_error>
+#include <vector>
 
 namespace faceprobe::cli {
 
@@ -114,6 +116,11 @@ void add_synth(CLI::App& program, Action& action) {
       program.add_subcommand("synth", "synthetic faces with every layer known, for training and measuring");
   synth::Recipe& recipe = options->recipe;
   command
+      ->add_option("--assets", options->sources.packed,
+                   "heads, skins, maps in files of `faceprobe synth pack`; what the options below name comes on top")
+      ->type_name("FILE")
+      ->check(CLI::ExistingFile);
+  command
       ->add_option("--heads", options->sources.heads,
                    "head models: an ICT-FaceKit folder, Basel .mat or .h5, .obj; default: a small built-in head")
       ->type_name("PATH");
@@ -168,9 +175,14 @@ void add_synth(CLI::App& program, Action& action) {
       "A run that was cut off goes on where it stopped when the same command is given again.\n\nExample:\n"
       "  faceprobe synth --heads ict_facekit --skins skins --maps hdri/train --count 20000 --seed 1 --split train \\\n"
       "    -o faces --preview faces.png");
-  const CLI::App* unwrap = add_unwrap(*command, action);
-  command->callback([options, unwrap, &action] {
-    if (!unwrap->parsed()) action = [options] { return run(*options); };
+#ifndef FACEPROBE_LEAN
+  const std::vector<const CLI::App*> others = {add_unwrap(*command, action), add_pack(*command, action)};
+#else
+  const std::vector<const CLI::App*> others;
+#endif
+  command->callback([options, others, &action] {
+    if (std::ranges::none_of(others, [](const CLI::App* other) { return other->parsed(); }))
+      action = [options] { return run(*options); };
   });
 }
 
