@@ -49,6 +49,7 @@ int main(int argc, char** argv) {
       "or\n"
       "invalid, 6 output not written, 7 device unavailable, 8 some of several photos failed.");
   cli::Action action;
+#ifndef FACEPROBE_LEAN
   cli::add_estimate(program, action);
   cli::add_separate(program, action);
   cli::add_triangulate(program, action);
@@ -58,18 +59,23 @@ int main(int argc, char** argv) {
   cli::add_doctor(program, action);
   cli::add_manual(program, action);
   cli::add_completion(program, action);
+#endif
 #ifdef FACEPROBE_HAS_SERVE
   cli::add_serve(program, action);
 #endif
 #ifdef FACEPROBE_HAS_SYNTH
   cli::add_synth(program, action);
   cli::add_mesh(program, action);
+#ifndef FACEPROBE_LEAN
   cli::add_trace(program, action);
+#endif
 #endif
 #ifdef FACEPROBE_HAS_TRAIN
   cli::add_train(program, action);
+#ifndef FACEPROBE_LEAN
   cli::add_finetune(program, action);
   cli::add_eval(program, action);
+#endif
 #endif
   try {
     program.parse(argc, argv);

@@ -5,8 +5,10 @@
 #include "faceprobe/train/train.h"
 #include "json_line.h"
 #include "train_light_command.h"
+#ifndef FACEPROBE_LEAN
 #include "train_regressor_command.h"
 #include "train_sky_command.h"
+#endif
 
 #include <spdlog/spdlog.h>
 
@@ -27,6 +29,12 @@ struct Options {
   bool json = false;
   train::TrainRun run;
 };
+
+#ifdef FACEPROBE_LEAN  // which reads no maps
+const std::vector<std::string> kNets = {"highlight", "face", "light"};
+#else
+const std::vector<std::string> kNets = {"highlight", "face", "light", "gardner", "legendre", "sky"};
+#endif
 
 // Set by an interrupt: the run ends after the step at hand.
 std::atomic<bool> interrupted = false;
@@ -69,9 +77,11 @@ int run(Options options) {
     throw Error(ExitCode::kUsage, "train " + options.net + " takes no --more; light does.");
   if (options.net != "highlight" && options.net != "face") refuse_options_of_highlight(options);
   if (options.net == "light") return train_light(options.run, options.more, config_json);
+#ifndef FACEPROBE_LEAN
   if (options.net == "gardner") return train_gardner(options.run, config_json, options.scenes);
   if (options.net == "legendre") return train_legendre(options.run, config_json);
   if (options.net == "sky") return train_sky(options.run, config_json, options.scenes);
+#endif
   if (!config_json.empty()) options.run.config = train::train_config_from_json(config_json);
   train::TrainConfig& config = options.run.config;
   if (options.config.empty() && options.net == "face") config.architecture = "face";
@@ -107,7 +117,7 @@ void add_train(CLI::App& program, Action& action) {
   CLI::App* command = program.add_subcommand("train", "trains a network on synthetic faces");
   command->add_option("NET", options->net, "which network; gardner, legendre and sky are rivals to measure against")
       ->required()
-      ->check(CLI::IsMember({"highlight", "face", "light", "gardner", "legendre", "sky"}));
+      ->check(CLI::IsMember(kNets));
   command->add_option("--config", options->config, "training config, JSON; default: the built-in one")
       ->check(CLI::ExistingFile);
   command->add_option("--data", options->run.data, "folder that `faceprobe synth` wrote; of maps for gardner and sky")
