@@ -1,5 +1,6 @@
 #include "faceprobe/lighting/albedo.h"
 
+#include "faceprobe/core/angles.h"
 #include "faceprobe/core/color.h"
 #include "lighting/region_luminance.h"
 
@@ -29,6 +30,18 @@ struct Mean {
 
 Eigen::Vector3f with_luminance(const Eigen::Array3d& colour, float luminance) {
   return (colour * (luminance / faceprobe::luminance(colour.data()))).matrix().cast<float>();
+}
+
+// Root mean square angle in degrees between a colour and colours whose log(r/g) and log(b/g) are off by independent normal errors of that variance:
+// to first order, of d colour what is across the colour.
+double colour_uncertainty_deg(const Eigen::Array3d& colour, double log_variance) {
+  const double all = colour.square().sum();
+  double across = 0;
+  for (const int c : {0, 2}) {
+    const double share = colour[c] * colour[c] / all;
+    across += share * (1 - share);
+  }
+  return degrees(std::sqrt(log_variance * across));
 }
 
 // One pass of a running mean along rows or columns, borders clamped; three make a near-Gaussian.
@@ -105,6 +118,8 @@ AlbedoModel fit_albedo(const Image& diffuse, const ByteImage& skin_region, const
   const Eigen::Array3d prior_skin = grey ? Eigen::Array3d::Ones().eval()
                                          : Eigen::Array3d(std::exp(kSkinLogRatio[0]), 1.0, std::exp(kSkinLogRatio[1]));
   model.light_colour.setOnes();
+  constexpr double kLightVariance = kWhiteBalanceSigma * kWhiteBalanceSigma;
+  if (!grey) model.light_colour_uncertainty_deg = colour_uncertainty_deg(Eigen::Array3d::Ones(), kLightVariance);
   RelativeLuminance relative = usual_relative_luminance();
   for (std::size_t r = 0; r < relative.size(); ++r)
     model.region_albedo[r] = with_luminance(prior_skin, kSkinLuminance * relative[r]);
@@ -112,12 +127,13 @@ AlbedoModel fit_albedo(const Image& diffuse, const ByteImage& skin_region, const
 
   // log(product) = log(light) + log(skin); posterior mean of the first under two independent normal priors.
   const Eigen::Array2d found(std::log(all.sum[0] / all.sum[1]), std::log(all.sum[2] / all.sum[1]));
-  constexpr double kLightVariance = kWhiteBalanceSigma * kWhiteBalanceSigma;
+  constexpr double kSkinShare = kSkinSigma * kSkinSigma / (kLightVariance + kSkinSigma * kSkinSigma);
   const Eigen::Array2d log_light =
       grey ? Eigen::Array2d::Zero().eval()
            : ((found - kSkinLogRatio) * (kLightVariance / (kLightVariance + kSkinSigma * kSkinSigma))).eval();
   const Eigen::Array3d light(std::exp(log_light[0]), 1.0, std::exp(log_light[1]));
   model.light_colour = light.matrix().cast<float>();
+  if (!grey) model.light_colour_uncertainty_deg = colour_uncertainty_deg(light, kLightVariance * kSkinShare);
   if (has_normals) relative = fit_relative_luminance(samples_of(diffuse, skin_region, clipped, normal_cam));
   for (std::size_t r = 0; r < regions.size(); ++r) {
     // Regions of few pixels lean on the whole face.

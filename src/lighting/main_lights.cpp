@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <vector>
 
@@ -160,6 +161,13 @@ std::vector<MainLight> main_lights(const Eigen::MatrixX3f& radiance, const Spher
   std::vector<MainLight> lights;
   for (FoundLight& found : find_lights(radiance, grid, options, confidence).lights) lights.push_back(found.light);
   return lights;
+}
+
+double light_to_ambient_ratio(const std::vector<MainLight>& lights) {
+  double share = 0;
+  for (const MainLight& light : lights) share += light.share;
+  if (!(share > 0)) return 0;
+  return share < 1 ? share / (1 - share) : std::numeric_limits<double>::infinity();
 }
 
 bool is_even(const Eigen::VectorXd& luminance) {

@@ -1,5 +1,10 @@
 #include "faceprobe/lighting/observations.h"
 
+#include "faceprobe/core/color.h"
+#include "faceprobe/core/microfacet.h"
+
+#include <algorithm>
+
 namespace faceprobe::lighting {
 
 void Observations::resize(Eigen::Index patches) {
@@ -12,6 +17,7 @@ void Observations::resize(Eigen::Index patches) {
   specular_albedo.setConstant(patches, 0.18F);
   weight.setOnes(patches);
   horizon.resize(0, kHorizonAzimuths);
+  grey = false;
 }
 
 std::string Observations::validate() const {
@@ -50,6 +56,7 @@ Observations concatenate(const std::vector<Observations>& sets) {
   }
   Observations all;
   all.resize(total);
+  all.grey = !sets.empty() && std::ranges::all_of(sets, [](const Observations& set) { return set.grey; });
   // A tangent of minus infinity lets everything pass; a large finite number keeps arithmetic on it finite.
   if (any_horizon) all.horizon.setConstant(total, kHorizonAzimuths, -1e6F);
   Eigen::Index at = 0;
@@ -67,6 +74,19 @@ Observations concatenate(const std::vector<Observations>& sets) {
     at += n;
   }
   return all;
+}
+
+bool shows_highlights(const Observations& observations) {
+  constexpr double kLeastShare = 0.05;
+  double found = 0;
+  double straight_on = 0;
+  for (Eigen::Index i = 0; i < observations.count(); ++i) {
+    const auto weight = static_cast<double>(observations.weight[i]);
+    const float shading = observations.shading.row(i).dot(kLuminanceWeights.transpose());
+    found += weight * static_cast<double>(observations.highlight.row(i).dot(kLuminanceWeights.transpose()));
+    straight_on += weight * static_cast<double>(observations.specular_albedo[i] * kSkinF0 * shading);
+  }
+  return found > 0 && found >= kLeastShare * straight_on;
 }
 
 }  // namespace faceprobe::lighting

@@ -1,4 +1,5 @@
 #include "faceprobe/core/angles.h"
+#include "faceprobe/core/color.h"
 #include "faceprobe/core/microfacet.h"
 #include "faceprobe/core/parallel.h"
 #include "faceprobe/core/quantile.h"
@@ -6,6 +7,7 @@
 #include "faceprobe/lighting/recolour.h"
 #include "faceprobe/lighting/richardson_lucy.h"
 #include "faceprobe/lighting/trace.h"
+#include "lighting/residual.h"
 
 #include <algorithm>
 #include <cmath>
@@ -39,12 +41,14 @@ RowMatrix phong_kernel(const TracedMap& traced, const SphereGrid& grid, int thre
 }
 
 // The paper's map has no scale. Of one gain for all channels, the one whose light gives the face as much shading as it has; 1 without shading.
-float gain_of_shading(const Observations& observations, const Eigen::MatrixX3f& radiance, const SphereGrid& grid,
-                      int threads) {
-  const RowMatrix diffuse = build_transport(observations, grid, threads).diffuse;
-  const float predicted = (observations.weight.transpose() * (diffuse * radiance)).sum();
+void bring_to_shading(const Observations& observations, const SphereGrid& grid, int threads, Light& light) {
+  Eigen::MatrixXf predicted = build_transport(observations, grid, threads).diffuse * light.radiance;
+  const float sum = (observations.weight.transpose() * predicted).sum();
   const float found = (observations.weight.transpose() * observations.shading).sum();
-  return predicted > 0 && found > 0 ? found / predicted : 1.0F;
+  const float gain = sum > 0 && found > 0 ? found / sum : 1.0F;
+  light.radiance *= gain;
+  predicted *= gain;
+  light.shading_residual = relative_residual(predicted, observations.shading, observations.weight, observations.clipped);
 }
 
 // Median of the cells that a highlight saw; black where none did.
@@ -94,7 +98,12 @@ Light solve_paper(const Observations& observations, const SolveOptions& options)
   for (int cell = 0; cell < grid.cell_count(); ++cell) {
     if (solved.sensitivity[cell] <= least) light.radiance.row(cell).setZero();
   }
-  light.radiance *= gain_of_shading(observations, light.radiance, grid, options.threads);
+  if (observations.grey) {
+    const Eigen::VectorXf luminance = light.radiance * kLuminanceWeights;
+    light.radiance = luminance.replicate(1, 3);
+  }
+  light.highlight_residual = relative_residual(kernel * light.radiance, traced.value, traced.weight);
+  bring_to_shading(observations, grid, options.threads, light);
   light.ambient = ambient_of(light);
   return light;
 }

@@ -4,6 +4,7 @@
 #include "faceprobe/lighting/estimate.h"
 #include "faceprobe/lighting/richardson_lucy.h"
 #include "faceprobe/lighting/transport.h"
+#include "lighting/residual.h"
 #include "lighting/smooth_start.h"
 
 #include <algorithm>
@@ -25,6 +26,7 @@ struct Rows {
   Eigen::VectorXf weight;
   Eigen::MatrixX3f data;
   Flags bound;  // #rows x 3
+  Eigen::Index highlights = 0;
 };
 
 float weighted_sum(const Eigen::VectorXf& weight, const Eigen::VectorXf& values) {
@@ -95,6 +97,7 @@ Rows stack(const Observations& o, const Transport& transport, const SolveOptions
   rows.data.resize(total, 3);
   rows.bound.resize(total, 3);
   if (use_highlights) {
+    rows.highlights = n;
     rows.transport.topRows(n) = transport.highlight;
     rows.weight.head(n) = o.weight * (options.highlight_weight / highlight_flux);
     rows.data.topRows(n) = o.highlight;
@@ -166,6 +169,17 @@ Eigen::VectorXf expected_start(const Eigen::MatrixX3f& expected, const Transport
   return (luminance * (predicted > 0 ? found / predicted : 1.0F)).cwiseMax(kDarkest * level);
 }
 
+// `weight`: of the observations, not of the rows: what the solver does not trust is not explained either.
+void rate_rows(const Rows& rows, const Eigen::VectorXf& weight, Light& light) {
+  const Eigen::MatrixXf predicted = rows.transport * light.radiance;
+  const auto of = [&](Eigen::Index first, Eigen::Index count) {
+    return relative_residual(predicted.middleRows(first, count), rows.data.middleRows(first, count), weight.head(count),
+                             rows.bound.middleRows(first, count));
+  };
+  light.highlight_residual = of(0, rows.highlights);
+  light.shading_residual = of(rows.highlights, rows.data.rows() - rows.highlights);
+}
+
 Eigen::MatrixX3f colours_of(const Eigen::MatrixX3f& light) {
   constexpr float kDarkest = 1e-6F;
   Eigen::MatrixX3f colours = light.cwiseMax(kDarkest);
@@ -215,9 +229,14 @@ Light solve_transport(const Observations& observations, const SolveOptions& opti
   const Flags bound = rows.bound.rowwise().any();
   const RichardsonLucyResult solved = richardson_lucy(rows.transport, rows.weight, rows.data * kLuminanceWeights, bound,
                                                       start, rl_options(options, options.iterations));
-  light.radiance =
-      coloured(rows, solved.estimate.col(0), has_expected ? colours_of(expected) : Eigen::MatrixX3f(), options);
+  const Eigen::VectorXf found = solved.estimate.col(0);
+  if (observations.grey) {
+    light.radiance = found.replicate(1, 3);
+  } else {
+    light.radiance = coloured(rows, found, has_expected ? colours_of(expected) : Eigen::MatrixX3f(), options);
+  }
   if (rate(solved.sensitivity, light) && !has_expected) fill_unobserved(light);
+  rate_rows(rows, observations.weight, light);
   return light;
 }
 

@@ -1,9 +1,12 @@
 #include "faceprobe/lighting/albedo.h"
 
+#include "faceprobe/core/angles.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <stdexcept>
 
 namespace faceprobe::lighting {
@@ -58,6 +61,39 @@ TEST(Albedo, GreyPhotoHasGreyLight) {
   const AlbedoModel model = fit_albedo(face.diffuse, face.region, face.clipped, {}, true);
   EXPECT_TRUE(model.light_colour.isOnes(1e-6F));
   EXPECT_NEAR(model.region_albedo[0][0], model.region_albedo[0][2], 1e-5F);
+}
+
+// People and white balances as the two priors have them (albedo.cpp): the stated standard deviation is that of the errors made.
+TEST(Albedo, TheColourOfTheLightIsAsUncertainAsItSays) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> skin(0, 0.20);
+  std::normal_distribution<double> balance(0, 0.12);
+  constexpr int kPeople = 400;
+  double made = 0;
+  double stated = 0;
+  for (int i = 0; i < kPeople; ++i) {
+    const Eigen::Vector3d light(std::exp(balance(random)), 1, std::exp(balance(random)));
+    const Eigen::Vector3d albedo(2.2 * std::exp(skin(random)), 1, 0.6 * std::exp(skin(random)));
+    const Face face = face_of_colour((0.3 * light.cwiseProduct(albedo)).cast<float>());
+    const AlbedoModel model = fit_albedo(face.diffuse, face.region, face.clipped);
+    ASSERT_TRUE(model.light_colour_uncertainty_deg);
+    const double angle = angle_between_deg(model.light_colour.cast<double>(), light);
+    made += angle * angle;
+    stated += *model.light_colour_uncertainty_deg * *model.light_colour_uncertainty_deg;
+  }
+  // Of 800 squares the mean is good to 5 %; the first order of the angle is off by less. Twice that of the root, and a little more.
+  EXPECT_NEAR(std::sqrt(made / stated), 1.0, 0.08);
+}
+
+TEST(Albedo, WithoutSkinTheColourIsAsUncertainAsWhiteBalances) {
+  Face face = face_of_colour({2.2F, 1.0F, 0.6F});
+  const double seen = fit_albedo(face.diffuse, face.region, face.clipped).light_colour_uncertainty_deg.value();
+  for (auto& value : face.clipped.values()) value = 1;
+  const double unseen = fit_albedo(face.diffuse, face.region, face.clipped).light_colour_uncertainty_deg.value();
+  // White light both times: the posterior's variance has the share .2^2 / (.2^2 + .12^2) of the prior's.
+  EXPECT_NEAR(seen / unseen, std::sqrt(0.04 / (0.04 + 0.0144)), 1e-3);
+  EXPECT_NEAR(unseen, degrees(0.12 * std::sqrt(4.0 / 9)), 1e-6);
+  EXPECT_FALSE(fit_albedo(face.diffuse, face.region, face.clipped, {}, true).light_colour_uncertainty_deg);
 }
 
 // A ball: forehead above, cheeks about the middle, chin and jaw below, under a lamp and an even surround.

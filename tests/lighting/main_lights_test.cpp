@@ -70,6 +70,20 @@ TEST(MainLights, EvenLightAndDarknessHaveNone) {
   EXPECT_TRUE(main_lights(Eigen::MatrixX3f::Zero(grid.cell_count(), 3), grid).empty());
 }
 
+TEST(MainLights, LampsOverTheRestIsARatioOfEnergies) {
+  const SphereGrid grid(16);
+  EXPECT_EQ(light_to_ambient_ratio({}), 0);
+  // A lamp of irradiance 1 in a surround of radiance .05 has 1 to .05 x 4 pi; another one outside the list counts to the rest.
+  const std::vector<MainLight> one = main_lights(lamp(grid, direction_from_angles(60, 20), 6, 0.05F), grid);
+  EXPECT_NEAR(light_to_ambient_ratio(one), 1 / (0.05 * 4 * kPi), 0.05);
+  Eigen::MatrixX3f map = lamp(grid, direction_from_angles(60, 20), 6, 0.05F);
+  map += lamp(grid, direction_from_angles(-60, 20), 6, 0.0F);
+  EXPECT_NEAR(light_to_ambient_ratio(main_lights(map, grid)), 2 / (0.05 * 4 * kPi), 0.1);
+  EXPECT_NEAR(light_to_ambient_ratio(main_lights(map, grid, {.max_lights = 1})), 1 / (1 + 0.05 * 4 * kPi), 0.05);
+  // Nothing but a lamp.
+  EXPECT_GT(light_to_ambient_ratio(main_lights(lamp(grid, {0, 0, 1}, 6, 0.0F), grid)), 1e6);
+}
+
 TEST(MainLights, TheRestAndTheLampAreAllTheLight) {
   const SphereGrid grid(16);
   Eigen::MatrixX3f map = lamp(grid, direction_from_angles(60, 20), 6, 0.02F, {1.4F, 1, 0.5F});

@@ -14,12 +14,16 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 
 namespace faceprobe::lighting {
 
 struct AlbedoModel {
   std::array<Eigen::Vector3f, kSkinRegionCount> region_albedo;  // linear; the cheeks' luminance is kSkinLuminance
   Eigen::Vector3f light_colour;                                 // mean light, linear, green = 1
+  // One standard deviation of the posterior of light_colour: root mean square of the angle between it and the true light's colour, as vectors of
+  // linear red, green and blue. What the two priors leave open; errors of the diffuse layer come on top. Unset for a grey photo.
+  std::optional<double> light_colour_uncertainty_deg;
 };
 
 inline constexpr float kSkinLuminance = 0.35F;  // assumed mean diffuse albedo; a photo does not tell its exposure

@@ -18,6 +18,7 @@
 #include "faceprobe/lighting/transport.h"
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -58,10 +59,17 @@ struct Light {
   Eigen::Vector3f ambient;   // median of well observed cells; what unobserved ones are given where no light is expected
   float highlight_gain = 1;  // what the highlights were divided by to agree with the shading
   float leak = 0;            // diffuse light found in the highlights, per unit of shading, and taken out
+  // What this light leaves unexplained of the rows that it was found from: with p a row's prediction from `radiance`, d what was observed and w the
+  // observation's weight, sqrt(sum w (p - d)^2 / sum w d^2) over rows and channels; clipped channels count where p is below d. 0 explains all, 1 no
+  // more than darkness does. Highlight rows: d after gain and leak are taken out; the paper's solver: its traced map. Shading rows: the paper's
+  // solver does not fit them but for their scale. Unset where rows of that kind were not used or hold no light.
+  std::optional<double> highlight_residual;
+  std::optional<double> shading_residual;
 };
 
 // Throws std::invalid_argument for observations or options that do not validate. No highlights at all is not an error: the
-// shading alone answers then, and without either the light is black with confidence 0.
+// shading alone answers then (by the paper's solver, which reads no shading, nothing does), and without either the light is black with confidence 0.
+// Of grey observations the light is grey, whatever colours `expected` has.
 // `expected`: #cells x 3, >= 0, the light to expect before the pixels are asked, at any scale (net/light_prior.h); empty = one lamp and an even
 // surround that fit the shading. The transport solver starts from it and leaves it where nothing is observed; the paper's does not know it, and
 // without any shading nobody does, because its scale is the shading's.

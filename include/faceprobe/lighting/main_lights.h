@@ -37,6 +37,10 @@ struct MainLightOptions {
 std::vector<MainLight> main_lights(const Eigen::MatrixX3f& radiance, const SphereGrid& grid,
                                    const MainLightOptions& options = {}, const Eigen::VectorXf& confidence = {});
 
+// Energy of these lights of one map over the energy of all the rest of it: what photographers weigh lamps against fill by. Energy is luminance times
+// steradian, of the lamps above their surroundings, as MainLight::irradiance is. 0 without lights; infinite where there is nothing else.
+double light_to_ambient_ratio(const std::vector<MainLight>& lights);
+
 // Whether no cell is brighter than another by more than rounding makes it, a ten-thousandth: such light comes from nowhere.
 bool is_even(const Eigen::VectorXd& luminance);
 

@@ -32,15 +32,22 @@ struct Observations {
   // #patches x kHorizonAzimuths: tangent of the elevation (over the image plane, towards +z) under which light is blocked by
   // the face itself. Empty = nothing blocks.
   Eigen::MatrixXf horizon;
+  // The picture has no colour. Its light is grey then, also where it is expected and not observed.
+  bool grey = false;
 
   Eigen::Index count() const { return normal.rows(); }
-  // All rows 0, unclipped, of weight 1, with the roughness and specular albedo of average skin; no horizon.
+  // All rows 0, unclipped, of weight 1, with the roughness and specular albedo of average skin; no horizon, not grey.
   void resize(Eigen::Index patches);
   // Empty when usable, else a sentence that says what is missing.
   std::string validate() const;
 };
 
-// One set after the other. Sets with and without horizon mix; where there is none, nothing blocks.
+// One set after the other. Sets with and without horizon mix; where there is none, nothing blocks. Grey if all of them are.
 Observations concatenate(const std::vector<Observations>& sets);
+
+// Whether there are highlights to speak of: a twentieth at least of what skin mirrors of the light that its shading shows, looked at straight on
+// (rho_s F0 times the shading). Every lamp makes it more than that, from the viewer's side the least (1.7 times, on an ellipsoid like a face).
+// Less is a layer without highlights: skin that is powdered or smoothed by a filter, or a separator that found none. False without patches.
+bool shows_highlights(const Observations& observations);
 
 }  // namespace faceprobe::lighting
