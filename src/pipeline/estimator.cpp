@@ -5,9 +5,11 @@
 #include "pipeline/camera_of.h"
 #include "pipeline/estimator_impl.h"
 #include "pipeline/expected_light.h"
+#include "pipeline/face_warnings.h"
 #include "pipeline/light_result.h"
 #include "pipeline/read_layers.h"
 #include "pipeline/stopwatch.h"
+#include "pipeline/take_colour_off.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -44,6 +46,7 @@ FaceEstimate Estimator::Impl::analyse(const io::Photo& photo, const face::Camera
   const face::Crop crop = face::face_crop(out.face, photo.linear.width(), photo.linear.height(), geometry);
   out.geometry = face::rasterize(out.face, camera, mesh, crop);
   out.picture = face::crop_picture(photo.linear, crop, options.threads);
+  if (photo.grey) take_colour_off(out.picture);
   out.clipped = face::crop_flags(photo.clipped, crop);
   watch.lap("geometry");
 
@@ -111,12 +114,18 @@ Estimate Estimator::estimate(const io::Photo& photo, const StageDone& stage_done
     out.faces.push_back(std::move(estimate));
   }
   if (out.faces.empty()) throw Error(ExitCode::kNoFace, "Every face found shows too little skin to read light from.");
+  const bool says_so = photo.grey && impl_->options.classical;  // below, of the photo
+  for (const FaceEstimate& face : out.faces) {
+    std::optional<std::string> warning;
+    if (!says_so) warning = no_highlights_warning(face, impl_->options.solve.solver);
+    if (warning) out.warnings.push_back(*std::move(warning));
+  }
   const auto area = [](const FaceEstimate& f) { return f.face.box.width * f.face.box.height; };
   out.largest =
       static_cast<std::size_t>(std::max_element(out.faces.begin(), out.faces.end(),
                                                 [&](const auto& a, const auto& b) { return area(a) < area(b); }) -
                                out.faces.begin());
-  if (photo.grey && impl_->options.classical) {
+  if (says_so) {
     out.warnings.emplace_back(
         impl_->options.solve.solver == lighting::Solver::kPaper
             ? "The photo is grey: the classical separators need colour and the paper's solver reads highlights only, "

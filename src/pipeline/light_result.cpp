@@ -1,6 +1,7 @@
 #include "pipeline/light_result.h"
 
 #include "faceprobe/core/color.h"
+#include "faceprobe/core/region.h"
 #include "faceprobe/core/sh.h"
 
 #include <cmath>
@@ -23,6 +24,7 @@ lighting::Observations thinned(const lighting::Observations& all, Eigen::Index k
   set.specular_albedo = all.specular_albedo(rows);
   set.weight = all.weight(rows);
   if (all.horizon.rows() > 0) set.horizon = all.horizon(rows, Eigen::all);
+  set.grey = all.grey;
   return set;
 }
 
@@ -35,7 +37,9 @@ LightResult light_result(lighting::Light light, const EstimateOptions& options) 
   const Eigen::MatrixX3f confidence = light.confidence.replicate(1, 3);
   result.confidence = env_map_from_grid(confidence, grid, options.map_width, options.map_width / 2);
   for (float& value : result.confidence.radiance().values()) value = std::min(1.0F, value);
-  result.sh = sh::project(resize(result.environment, 128, 64), options.sh_order);
+  const EnvMap small = resize(result.environment, 128, 64);
+  result.sh = sh::project(small, options.sh_order);
+  result.sh4 = sh::project(small, 4);
   result.lights = lighting::main_lights(light.radiance, grid, options.main_lights, light.confidence);
   result.light = std::move(light);
   return result;
@@ -43,6 +47,21 @@ LightResult light_result(lighting::Light light, const EstimateOptions& options) 
 
 FaceEvidence evidence_of(const FaceEstimate& face) {
   return {face.observations, energy(face.light), face.enough_shown};
+}
+
+std::optional<Eigen::Vector3f> mean_skin_albedo(const FaceEstimate& face) {
+  const ByteImage& region = face.geometry.region;
+  if (!region.same_size(face.shading) || !region.same_size(face.layers.diffuse) || !region.same_size(face.clipped))
+    return {};
+  Eigen::Vector3d diffuse = Eigen::Vector3d::Zero();
+  Eigen::Vector3d light = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < region.pixel_count(); ++i) {
+    if (!is_probe_skin(static_cast<Region>(region.data()[i])) || face.clipped.data()[i] != 0) continue;
+    diffuse += Eigen::Map<const Eigen::Vector3f>(face.layers.diffuse.data() + 3 * i).cast<double>();
+    light += Eigen::Map<const Eigen::Vector3f>(face.shading.data() + 3 * i).cast<double>();
+  }
+  if (!(light.minCoeff() > 0)) return {};
+  return diffuse.cwiseQuotient(light).cast<float>();
 }
 
 lighting::Observations joint_observations(const std::vector<FaceEvidence>& faces) {

@@ -68,6 +68,7 @@ void read_layers(const FaceReader& reader, const EstimateOptions& options, const
     const lighting::AlbedoModel albedo =
         lighting::fit_albedo(face.layers.diffuse, skin, face.clipped, face.geometry.normal_cam, grey);
     face.light_colour = albedo.light_colour;
+    face.light_colour_uncertainty_deg = albedo.light_colour_uncertainty_deg;
     face.albedo = lighting::albedo_picture(albedo, skin);
     face.shading = divide(face.layers.diffuse, face.albedo, skin);
   }
@@ -75,6 +76,7 @@ void read_layers(const FaceReader& reader, const EstimateOptions& options, const
 
   face.observations =
       observe(face.geometry, face.layers.highlight, face.shading, face.clipped, options.max_patches, options.threads);
+  face.observations.grey = grey;
 }
 
 }  // namespace faceprobe::pipeline

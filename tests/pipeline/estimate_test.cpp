@@ -173,6 +173,78 @@ TEST(Estimate, PhotosOfOneLightHaveThatLightWhateverTheirExposures) {
   EXPECT_THROW(estimator.joint({}), std::invalid_argument);
 }
 
+// Without colour, but for what JPEG's rounding leaves of it.
+io::Photo grey_portrait() {
+  io::Photo grey = portrait();
+  for (std::size_t i = 0; i < grey.linear.values().size(); i += 3) {
+    float* pixel = grey.linear.data() + i;
+    const float level = luminance(pixel);
+    const float rounding = i % 2 == 0 ? 0.004F : -0.004F;  // half a code value
+    for (std::size_t c = 0; c < 3; ++c) pixel[c] = level * (1 + (c == 1 ? -rounding : rounding));
+  }
+  grey.grey = true;
+  return grey;
+}
+
+void expect_grey(const Image& image, float tolerance) {
+  for (std::size_t i = 0; i < image.values().size(); i += 3) {
+    const float* pixel = image.data() + i;
+    ASSERT_NEAR(pixel[0], pixel[1], tolerance);
+    ASSERT_NEAR(pixel[2], pixel[1], tolerance);
+  }
+}
+
+TEST(Estimate, GreyInGreyOut) {
+  EstimateOptions options;
+  options.solve.nside = 8;
+  for (const ShadingSource shading : {ShadingSource::kNet, ShadingSource::kRegions}) {
+    options.shading = shading;
+    const Estimator estimator(options);
+    const FaceEstimate face = estimator.estimate(grey_portrait()).faces[0];
+    ASSERT_EQ(face.sources.prior, PriorSource::kNet) << "which knows blue skies";
+    EXPECT_GT(face.environment.integral()[1], 0);
+    expect_grey(face.environment.radiance(), 1e-4F);  // float
+    // Highlights are enlarged by local fits of their own for each channel, which agree as far as float does.
+    for (const Image* image : {&face.shading, &face.layers.highlight, &face.layers.diffuse}) expect_grey(*image, 1e-3F);
+    EXPECT_TRUE(face.light_colour.isOnes(1e-4F));
+    EXPECT_FALSE(face.light_colour_uncertainty_deg);
+    for (const lighting::MainLight& light : face.lights) EXPECT_TRUE(light.colour.isOnes(1e-5));
+    const LightResult joint = estimator.joint({evidence_of(face), evidence_of(face)});
+    EXPECT_GT(joint.environment.integral()[1], 0);
+    expect_grey(joint.environment.radiance(), 1e-4F);
+  }
+}
+
+TEST(Estimate, AFaceWithoutHighlightsIsTold) {
+  // One colour all over: to the separator that is skin without a highlight.
+  io::Photo powdered = portrait();
+  for (std::size_t i = 0; i < powdered.linear.values().size(); i += 3) {
+    float* pixel = powdered.linear.data() + i;
+    const float level = luminance(pixel);
+    pixel[0] = 1.3F * level;
+    pixel[1] = level;
+    pixel[2] = 0.6F * level;
+  }
+  EstimateOptions options;
+  options.classical = highlight::Separator::kYang;
+  options.solve.nside = 8;
+  const auto told = [](const Estimate& estimate, const char* what) {
+    return std::ranges::any_of(estimate.warnings,
+                               [&](const std::string& w) { return w.find(what) != std::string::npos; });
+  };
+  for (const lighting::Solver solver : {lighting::Solver::kTransport, lighting::Solver::kPaper}) {
+    options.solve.solver = solver;
+    const Estimate estimate = Estimator(options).estimate(powdered);
+    EXPECT_TRUE(told(estimate, "shows no highlights"));
+    EXPECT_EQ(told(estimate, "shading alone"), solver == lighting::Solver::kTransport);
+    const FaceEstimate& face = estimate.faces[0];
+    EXPECT_TRUE(all_finite(face.environment.radiance()));
+    EXPECT_TRUE(face.sh.allFinite() && face.light.ambient.allFinite());
+    EXPECT_FALSE(told(Estimator(options).estimate(portrait()), "shows no highlights"));
+  }
+  EXPECT_FALSE(told(portrait_estimate(), "shows no highlights"));
+}
+
 // The portrait's red is clipped on nose and cheeks. What lies over it is no cyan light.
 TEST(Estimate, AClippedChannelIsNoHoleInTheHighlight) {
   const FaceEstimate& face = portrait_estimate().faces[0];

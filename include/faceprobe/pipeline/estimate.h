@@ -96,6 +96,7 @@ struct LightResult {
   EnvMap environment;                       // the same as a lat-long map
   EnvMap confidence;                        // 0..1 in all three channels
   Eigen::MatrixX3d sh;                      // (order + 1)^2 x 3 radiance coefficients, see core/sh.h
+  Eigen::MatrixX3d sh4;                     // 25 x 3, the same of order 4 whatever options.sh_order
   std::vector<lighting::MainLight> lights;  // by falling strength
 };
 
@@ -120,8 +121,15 @@ struct FaceEstimate : LightResult {
   Image albedo;                  // crop, linear
   Image shading;                 // crop: diffuse / albedo, i.e. irradiance / pi; 0 off the skin
   Eigen::Vector3f light_colour;  // mean light by the skin and white-balance priors, green = 1
+  // See lighting::AlbedoModel; of the regions' albedo alone, the network states no error.
+  std::optional<double> light_colour_uncertainty_deg;
   lighting::Observations observations;
 };
+
+// The diffuse layer over the shading, both summed over skin that is neither clipped nor lips or brows: the skin's albedo, linear, mean by the light
+// that falls on it. Nothing where there is no light on the skin. The level is the one that ShadingSource assumes of skins: a dark skin and a short
+// exposure make the same photo, so it does not tell how light a skin is.
+std::optional<Eigen::Vector3f> mean_skin_albedo(const FaceEstimate& face);
 
 // What one light for several faces needs of each of them.
 struct FaceEvidence {
@@ -173,7 +181,7 @@ class Estimator {
   lighting::Light light_of(const lighting::Observations& observations, bool ask_prior = true) const;
   // One distant light for faces of one photo, or of several that the same camera took from the same place in the same light, such as a burst:
   // more patches, each with noise of its own. Every face is first scaled to the mean energy of the single estimates, because photos tell
-  // neither albedos nor exposures. The prior is asked when the photos show enough of all of them. Many faces are thinned to options().max_patches
+  // neither albedos nor exposures. Of grey faces alone the light is grey. The prior is asked when the photos show enough of all of them. Many faces are thinned to options().max_patches
   // in all. Throws std::invalid_argument for none.
   LightResult joint(const std::vector<FaceEvidence>& faces) const;
   // The faces alone, left to right; empty when there are none. Throws Error(kUsage) for a photo without pixels.
