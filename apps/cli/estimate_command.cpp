@@ -49,18 +49,24 @@ void write_map(const std::string& path, const EnvMap& map, Orientation orientati
   io::write_env_map(path, map, orientation, attributes);
 }
 
-// One light of the faces of all photos.
-void write_same_light(const std::vector<pipeline::FaceEvidence>& faces, const pipeline::Estimator& estimator,
-                      const std::string& output, const pipeline::OutputOptions& how) {
-  const pipeline::LightResult light = estimator.joint(faces);
-  if (is_picture_output(output)) {
-    write_map(output, light.environment, how.orientation, pipeline::provenance(estimator.options()));
-    spdlog::info("{} faces in one light, wrote {}", faces.size(), output);
+// What all photos say of their one light, and which these were.
+struct Burst {
+  std::vector<pipeline::FaceEvidence> faces;
+  std::vector<pipeline::JointPhoto> photos;
+};
+
+void write_same_light(const Burst& burst, const pipeline::Estimator& estimator, const Options& options,
+                      const pipeline::OutputOptions& how) {
+  const pipeline::LightResult light = estimator.joint(burst.faces);
+  if (is_picture_output(options.output)) {
+    write_map(options.output, light.environment, how.orientation, pipeline::provenance(estimator.options()));
+    spdlog::info("{} faces in one light, wrote {}", burst.faces.size(), options.output);
   } else {
-    const std::filesystem::path folder = std::filesystem::path(output) / "joint";
-    const auto files = pipeline::write_light(folder, light, estimator.options(), how);
-    spdlog::info("{} faces in one light, wrote {} files to {}", faces.size(), files.size(), folder.string());
+    const std::filesystem::path folder = std::filesystem::path(options.output) / "joint";
+    const auto files = pipeline::write_joint(folder, light, burst.photos, estimator.options(), how);
+    spdlog::info("{} faces in one light, wrote {} files to {}", burst.faces.size(), files.size(), folder.string());
   }
+  if (options.json) std::fputs(pipeline::joint_report_json(light, burst.photos, estimator.options()).c_str(), stdout);
 }
 
 int run(const Options& options) {
@@ -79,7 +85,7 @@ int run(const Options& options) {
   const pipeline::Estimator estimator(wanted);
   double models_s = seconds_since(start);
   int code = 0;
-  std::vector<pipeline::FaceEvidence> evidence;
+  Burst burst;
   for (std::size_t i = 0; i < options.inputs.size(); ++i) {
     // One bad photo among several does not cost the others theirs: the code is 8 then, the photo's own when it is alone.
     const int one = run_guarded([&] {
@@ -90,7 +96,8 @@ int run(const Options& options) {
       for (const std::string& warning : estimate.warnings) spdlog::warn("{}: {}", options.inputs[i], warning);
       start = Clock::now();
       if (options.same_light) {
-        for (const pipeline::FaceEstimate& face : estimate.faces) evidence.push_back(pipeline::evidence_of(face));
+        for (const pipeline::FaceEstimate& face : estimate.faces) burst.faces.push_back(pipeline::evidence_of(face));
+        burst.photos.push_back({options.inputs[i], photo.sha256, estimate.faces.size()});
       }
       if (map_only && options.same_light) {
         spdlog::info("{}: {} face(s)", options.inputs[i], estimate.faces.size());
@@ -114,7 +121,7 @@ int run(const Options& options) {
     });
     if (one != 0) code = options.inputs.size() > 1 ? static_cast<int>(ExitCode::kBatchFailures) : one;
   }
-  if (!evidence.empty()) write_same_light(evidence, estimator, options.output, output);
+  if (!burst.faces.empty()) write_same_light(burst, estimator, options, output);
   return code;
 }
 
@@ -130,7 +137,7 @@ void add_estimate(CLI::App& program, Action& action) {
                    "folder for everything, or NAME.exr/.hdr/.png for the largest face's map alone")
       ->type_name("PATH")
       ->capture_default_str();
-  command->add_flag("--json", options->json, "print the report on stdout");
+  command->add_flag("--json", options->json, "print the report on stdout; of --same-light the one of all photos last");
   command->add_flag("--timings", options->timings, "print a table of stage times on stderr");
   command->add_flag("--same-light", options->same_light,
                     "the photos are of one camera, place and light, as a burst is: also one map of all their faces");
@@ -143,7 +150,7 @@ void add_estimate(CLI::App& program, Action& action) {
       "The folder gets the environment map (environment.exr, .hdr and a .png to look at) with its confidence, scenes\n"
       "for USD and Blender, the layers of the face, overview.png, and report.json with pose, spherical harmonics and\n"
       "main lights. Several faces get folders of their own, face_1, face_2, ... from left to right, beside joint, the\n"
-      "light of all; several photos get folders of their names.\n\n"
+      "light of all; several photos get folders of their names, and with --same-light one more, joint.\n\n"
       "Examples:\n  faceprobe estimate portrait.jpg -o out\n  faceprobe estimate portrait.jpg -o light.exr --orient "
       "blender\n"
       "  faceprobe estimate a.jpg b.jpg -o out --json > reports.json\n"

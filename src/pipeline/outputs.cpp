@@ -7,7 +7,6 @@
 #include "faceprobe/io/atomic_file.h"
 #include "faceprobe/io/picture_file.h"
 #include "faceprobe/pipeline/overview.h"
-#include "faceprobe/pipeline/report.h"
 #include "faceprobe/pipeline/scene_files.h"
 #include "pipeline/canvas.h"
 
@@ -152,6 +151,14 @@ std::vector<Path> write_light(const Path& folder, const LightResult& light, cons
   writer.maps(folder, light, options);
   writer.run(options.threads);
   return std::move(writer).written();
+}
+
+std::vector<Path> write_joint(const Path& folder, const LightResult& light, const std::vector<JointPhoto>& photos,
+                              const EstimateOptions& options, const OutputOptions& output) {
+  std::vector<Path> written = write_light(folder, light, options, output);
+  written.push_back(folder / "report.json");
+  io::write_file_atomically(written.back(), joint_report_json(light, photos, options));
+  return written;
 }
 
 std::vector<Path> write_outputs(const Path& folder, const Estimate& estimate, const io::Photo& photo,

@@ -18,6 +18,8 @@ Json array_of(const Vector& v) {
   return out;
 }
 
+Json number_or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
+
 Json sh_json(const Eigen::MatrixX3d& sh) {
   Json coefficients = Json::array();
   for (Eigen::Index i = 0; i < sh.rows(); ++i) coefficients.push_back(array_of(Eigen::Vector3d(sh.row(i).transpose())));
@@ -47,8 +49,12 @@ Json light_json(const LightResult& result) {
           {"mean_confidence", result.light.confidence.size() > 0 ? result.light.confidence.mean() : 0.0F},
           {"highlight_gain", result.light.highlight_gain},
           {"highlight_leak", result.light.leak},
+          {"highlight_residual", number_or_null(result.light.highlight_residual)},
+          {"shading_residual", number_or_null(result.light.shading_residual)},
           {"main_lights", lights_json(result.lights)},
-          {"spherical_harmonics", sh_json(result.sh)}};
+          {"light_to_ambient_ratio", lighting::light_to_ambient_ratio(result.lights)},
+          {"spherical_harmonics", sh_json(result.sh)},
+          {"spherical_harmonics_4", sh_json(result.sh4)}};
 }
 
 std::string_view focal_source_name(FocalSource source) {
@@ -81,6 +87,7 @@ Json face_json(const FaceEstimate& face) {
   const Eigen::Matrix3d rotation = face.face.camera_from_face.rotation();
   const Eigen::Vector3d forward = rotation.col(2);
   Json rows = Json::array();
+  const std::optional<Eigen::Vector3f> albedo = mean_skin_albedo(face);
   for (int r = 0; r < 3; ++r) rows.push_back(array_of(Eigen::Vector3d(rotation.row(r).transpose())));
   return {
       {"box_px",
@@ -95,8 +102,31 @@ Json face_json(const FaceEstimate& face) {
       {"sources", sources_json(face.sources)},
       {"patches", face.observations.count()},
       {"light_colour_rgb", array_of(face.light_colour)},
+      {"light_colour_uncertainty_deg", number_or_null(face.light_colour_uncertainty_deg)},
+      {"skin_albedo_mean_rgb", albedo ? array_of(*albedo) : Json()},
       {"light", light_json(face)}};
 }
+
+Json program_json() { return {{"name", "faceprobe"}, {"version", kVersion}}; }
+
+constexpr std::string_view kFrame =
+    "camera: +x right in the photo, +y up, +z towards the viewer; directions from the face to the light";
+
+Json options_json(const EstimateOptions& options) {
+  return {{"separator", options.separator_name()},
+          {"geometry", normals_name(options.classical && options.normals == NormalSource::kNet ? NormalSource::kMesh : options.normals)},
+          {"shading", shading_name(options.classical ? ShadingSource::kRegions : options.shading)},
+          {"solver", lighting::solver_name(options.solve.solver)},
+          {"prior", prior_name(options.asks_prior() ? PriorSource::kNet : PriorSource::kSmooth)},
+          {"iterations", options.solve.iterations},
+          {"nside", options.solve.nside},
+          {"map_size_px", {options.map_width, options.map_width / 2}},
+          {"layer_px", options.layer_px},
+          {"deterministic", options.deterministic}};
+}
+
+// Names of files may be any bytes; what is not UTF-8 is replaced rather than thrown at the user.
+std::string text_of(const Json& report) { return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
 }  // namespace
 
@@ -104,9 +134,8 @@ std::string report_json(const Estimate& estimate, const io::Photo& photo, const 
                         const std::string& source) {
   Json report;
   report["schema"] = kReportSchema;
-  report["program"] = {{"name", "faceprobe"}, {"version", kVersion}};
-  report["frame"] =
-      "camera: +x right in the photo, +y up, +z towards the viewer; directions from the face to the light";
+  report["program"] = program_json();
+  report["frame"] = kFrame;
   report["photo"] = {{"source", source},
                      {"sha256", photo.sha256},
                      {"format", photo.format},
@@ -119,18 +148,7 @@ std::string report_json(const Estimate& estimate, const io::Photo& photo, const 
   report["camera"] = {{"focal_px", estimate.camera.focal_px},
                       {"focal_source", focal_source_name(estimate.focal_source)},
                       {"centre_px", {estimate.camera.centre_x_px, estimate.camera.centre_y_px}}};
-  report["options"] = {
-      {"separator", options.separator_name()},
-      {"geometry",
-       normals_name(options.classical && options.normals == NormalSource::kNet ? NormalSource::kMesh : options.normals)},
-      {"shading", shading_name(options.classical ? ShadingSource::kRegions : options.shading)},
-      {"solver", lighting::solver_name(options.solve.solver)},
-      {"prior", prior_name(options.asks_prior() ? PriorSource::kNet : PriorSource::kSmooth)},
-      {"iterations", options.solve.iterations},
-      {"nside", options.solve.nside},
-      {"map_size_px", {options.map_width, options.map_width / 2}},
-      {"layer_px", options.layer_px},
-      {"deterministic", options.deterministic}};
+  report["options"] = options_json(options);
   report["largest_face"] = estimate.largest;
   report["faces"] = Json::array();
   for (const FaceEstimate& face : estimate.faces) report["faces"].push_back(face_json(face));
@@ -143,8 +161,21 @@ std::string report_json(const Estimate& estimate, const io::Photo& photo, const 
   }
   report["timings"] = {{"stages", timings}, {"total_seconds", total}};
   report["warnings"] = estimate.warnings;
-  // Names of files may be any bytes; what is not UTF-8 is replaced rather than thrown at the user.
-  return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return text_of(report);
+}
+
+std::string joint_report_json(const LightResult& light, const std::vector<JointPhoto>& photos,
+                              const EstimateOptions& options) {
+  Json report;
+  report["schema"] = kJointReportSchema;
+  report["program"] = program_json();
+  report["frame"] = kFrame;
+  report["photos"] = Json::array();
+  for (const JointPhoto& photo : photos)
+    report["photos"].push_back({{"source", photo.source}, {"sha256", photo.sha256}, {"faces", photo.faces}});
+  report["options"] = options_json(options);
+  report["light"] = light_json(light);
+  return text_of(report);
 }
 
 }  // namespace faceprobe::pipeline

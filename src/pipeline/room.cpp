@@ -82,7 +82,9 @@ std::string room_json(const Room& room, const std::string& source) {
     for (const lighting::MainLight& light : face.lights)
       lights.push_back({{"direction", array_of(light.direction)},
                         {"colour_rgb", array_of(light.colour)},
-                        {"irradiance", light.irradiance}});
+                        {"irradiance", light.irradiance},
+                        {"solid_angle_sr", light.solid_angle_sr},
+                        {"share_of_energy", light.share}});
     json["faces"].push_back({{"position_m", array_of(face.position_m)},
                              {"position_deviation_m", face.position_error_m},
                              {"main_lights", lights}});

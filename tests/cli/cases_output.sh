@@ -19,9 +19,22 @@ case_several_photos() {
   expect_files some "${wanted[@]}"
   # One light for both, beside their own or alone.
   expect_exit 0 estimate first.jpg second.jpg --same-light -o same "${quick[@]}"
-  expect_files same "${wanted[@]}" joint/environment.{exr,hdr,png} joint/{confidence.exr,environment_rest.exr,light.usda,light.gltf,blender.py}
-  expect_exit 0 estimate first.jpg second.jpg --same-light -o same.exr "${quick[@]}"
+  expect_files same "${wanted[@]}" joint/environment.{exr,hdr,png} joint/{confidence.exr,environment_rest.exr,light.usda,light.gltf,blender.py,report.json}
+  expect_json faceprobe-joint-report/1 same/joint/report.json schema
+  expect_json second.jpg same/joint/report.json photos 1 source
+  expect_json 1 same/joint/report.json photos 0 faces
+  expect_json "$(json same/first/report.json photo sha256)" same/joint/report.json photos 0 sha256
+  json same/joint/report.json light spherical_harmonics rgb 8 2 >/dev/null || fail "no nine harmonics of the joint light"
+  json same/joint/report.json light ambient_rgb 2 >/dev/null || fail "no surround of the joint light"
+  json same/joint/report.json light main_lights >/dev/null || fail "no main lights of the joint light"
+  # One report a photo, then that of their one light, which is of the photos that could be read.
+  expect_exit 8 estimate first.jpg broken.jpg second.jpg --same-light -o same.exr --json "${quick[@]}"
   [ -s same.exr ] || fail "no joint map"
+  [ "$(grep -c '^{$' "$work/stdout")" = 3 ] || fail "two photos and their light are three reports"
+  awk '$0 == "{" { text = "" } { text = text $0 "\n" } END { printf "%s", text }' "$work/stdout" >last.json
+  expect_json faceprobe-joint-report/1 last.json schema
+  expect_json first.jpg last.json photos 0 source
+  expect_json second.jpg last.json photos 1 source
   expect_refused 2 "several photos" estimate first.jpg --same-light -o alone
 }
 

@@ -3,10 +3,14 @@
 #include "faceprobe/core/angles.h"
 #include "faceprobe/lighting/albedo.h"
 #include "faceprobe/pipeline/observe.h"
+#include "faceprobe/pipeline/report.h"
+#include "pipeline/face_warnings.h"
 #include "pipeline/light_result.h"
 #include "pipeline/posed_face.h"
 
 #include <gtest/gtest.h>
+#include <algorithm>
+#include <nlohmann/json.hpp>
 
 namespace faceprobe::pipeline {
 namespace {
@@ -93,6 +97,39 @@ TEST(KnownLight, EvenLightHasNoMainLight) {
   // Radiance 1 from everywhere; the truth has no shadowing of the sky, the horizons take up to a third of it in folds.
   const double mean = found.environment.integral().mean() / (4 * kPi);
   EXPECT_NEAR(mean, 1.0, 0.25);
+}
+
+TEST(KnownLight, AnEmptyHighlightLayerIsNoNan) {
+  const PosedFace posed = posed_face(0);
+  LitFace lit = light_up(posed, {{direction_from_angles(40, 30)}}, 0.05F);
+  std::ranges::fill(lit.highlight.values(), 0.0F);
+  for (const lighting::Solver solver : {lighting::Solver::kTransport, lighting::Solver::kPaper}) {
+    EstimateOptions options;
+    options.solve.solver = solver;
+    options.solve.nside = 8;
+    FaceEstimate face;
+    face.light_colour.setOnes();
+    face.observations =
+        observe(posed.geometry, lit.highlight, lit.shading, no_flags(posed), options.max_patches, options.threads);
+    static_cast<LightResult&>(face) = light_result(lighting::solve(face.observations, options.solve), options);
+    const bool paper = solver == lighting::Solver::kPaper;
+    EXPECT_EQ(face.light.radiance.maxCoeff() > 0, !paper);
+    EXPECT_TRUE(face.light.radiance.allFinite() && face.light.confidence.allFinite() && face.light.ambient.allFinite());
+    EXPECT_TRUE(face.sh.allFinite() && face.sh4.allFinite());
+    EXPECT_FALSE(face.light.highlight_residual);
+    const std::string warning = no_highlights_warning(face, solver).value_or("");
+    EXPECT_NE(warning.find(paper ? "its map is black" : "from shading alone"), std::string::npos) << warning;
+    Estimate estimate;
+    estimate.faces.push_back(face);
+    const auto report = nlohmann::json::parse(report_json(estimate, io::Photo(), options, "face.png"));
+    const auto& light = report.at("faces")[0].at("light");
+    for (const char* name : {"ambient_rgb", "mean_confidence", "highlight_gain", "light_to_ambient_ratio"})
+      EXPECT_EQ(light.at(name).dump().find("null"), std::string::npos) << name;
+    EXPECT_EQ(light.at("spherical_harmonics").dump().find("null"), std::string::npos);
+    // From black to a joint light with nothing in it.
+    EXPECT_TRUE(
+        lighting::solve(joint_observations({evidence_of(face), evidence_of(face)}), options.solve).radiance.allFinite());
+  }
 }
 
 TEST(Observe, ClippedTransparentAndAvertedPixels) {

@@ -72,6 +72,23 @@ TEST(Report, HoldsTheDocumentedFields) {
   const json& light = face.at("light");
   EXPECT_EQ(light.at("spherical_harmonics").at("rgb").size(), 9U);
   EXPECT_EQ(light.at("spherical_harmonics").at("quantity"), "radiance");
+  const json& finer = light.at("spherical_harmonics_4").at("rgb");
+  ASSERT_EQ(finer.size(), 25U);
+  const json& nine = light.at("spherical_harmonics").at("rgb");
+  for (std::size_t i = 0; i < 9; ++i) EXPECT_NEAR(finer[i][1].get<double>(), nine[i][1].get<double>(), 1e-9) << i;
+  // A face's picture is never explained to the last bit, and by any light better than by darkness, of which the residual is 1.
+  for (const char* residual : {"highlight_residual", "shading_residual"}) {
+    EXPECT_GT(light.at(residual).get<double>(), 0) << residual;
+    EXPECT_LT(light.at(residual).get<double>(), 1) << residual;
+  }
+  double share = 0;
+  for (const json& lamp : light.at("main_lights")) share += lamp.at("share_of_energy").get<double>();
+  EXPECT_NEAR(light.at("light_to_ambient_ratio").get<double>(), share / (1 - share), 1e-9);
+  EXPECT_TRUE(face.at("light_colour_uncertainty_deg").is_null()) << "the network states no error";
+  for (const json& channel : face.at("skin_albedo_mean_rgb")) {
+    EXPECT_GT(channel.get<double>(), 0);
+    EXPECT_LT(channel.get<double>(), 1);
+  }
   ASSERT_EQ(light.at("main_lights").size(), portrait_estimate().faces[0].lights.size());
   const json& strongest = light.at("main_lights").at(0);
   EXPECT_NEAR(strongest.at("direction")[0].get<double>(), portrait_estimate().faces[0].lights[0].direction.x(), 1e-12);
@@ -128,6 +145,8 @@ TEST(Report, EveryFieldStandsInTheDocumentation) {
   const json report = json::parse(report_json(estimate, portrait(), EstimateOptions(), "portrait.jpg"));
   std::set<Field> written;
   add_fields(report, "report.json", written);
+  const std::vector<JointPhoto> photos = {{"a.jpg", "12ab", 1}};
+  add_fields(json::parse(joint_report_json(estimate.faces[0], photos, EstimateOptions())), "joint/report.json", written);
   ASSERT_GT(written.size(), 60U);
   const std::set<Field> documented = documented_fields();
   for (const auto& [object, name] : written)
@@ -160,6 +179,25 @@ TEST(Report, SaysWhatAFaceWasReadBy) {
             json({{"separator", "yang"}, {"geometry", "net"}, {"shading", "regions"}, {"prior", "smooth"}}));
   options.classical = highlight::Separator::kTan;
   EXPECT_EQ(sources_of(portrait(), options), none);
+}
+
+TEST(Report, AJointLightHasAReportOfItsOwn) {
+  const LightResult& light = portrait_estimate().faces[0];
+  const std::vector<JointPhoto> photos = {{"one.jpg", "12ab", 1}, {"two \xff.jpg", "34cd", 3}};
+  const testing::TempFolder folder;
+  const auto files = write_joint(folder.path() / "joint", light, photos, EstimateOptions());
+  ASSERT_EQ(files.back(), folder.path() / "joint" / "report.json");
+  EXPECT_EQ(files_under(folder.path()).size(), files.size());
+  std::ifstream file(files.back());
+  const json report = json::parse(file);
+  EXPECT_EQ(report.at("schema"), "faceprobe-joint-report/1");
+  ASSERT_EQ(report.at("photos").size(), 2U);
+  EXPECT_EQ(report.at("photos")[0], json({{"source", "one.jpg"}, {"sha256", "12ab"}, {"faces", 1}}));
+  EXPECT_EQ(report.at("photos")[1].at("source"), "two \xef\xbf\xbd.jpg");
+  // The light of a joint report is told as a face's is.
+  const json own = json::parse(report_json(portrait_estimate(), portrait(), EstimateOptions(), "one.jpg"));
+  EXPECT_EQ(report.at("light"), own.at("faces")[0].at("light"));
+  EXPECT_EQ(report.at("options"), own.at("options"));
 }
 
 TEST(Report, SourceNamesMayBeAnyBytes) {

@@ -21,6 +21,8 @@ Estimate two_faces(const Eigen::Vector3d& lamp_m) {
     light.direction = (lamp_m - place).normalized();
     light.colour = Eigen::Vector3d::Ones();
     light.irradiance = 2 / (lamp_m - place).squaredNorm();
+    light.solid_angle_sr = 0.25;
+    light.share = 0.5;
     face.lights = {light};
     estimate.faces.push_back(std::move(face));
   }
@@ -38,6 +40,8 @@ TEST(Room, ALampThatBothFacesSeeIsFoundAndTold) {
   EXPECT_EQ(json["faces"].size(), 2U);
   EXPECT_NEAR(json["lamps"][0]["position_m"][1].get<double>(), lamp.y(), 0.02);
   EXPECT_EQ(json["lamps"][0]["seen_by"].size(), 2U);
+  EXPECT_EQ(json["faces"][1]["main_lights"][0]["solid_angle_sr"], 0.25);
+  EXPECT_EQ(json["faces"][1]["main_lights"][0]["share_of_energy"], 0.5);
   EXPECT_GT(json["lamps"][0]["position_deviation_m"].get<double>(), 0.02);
 }
 

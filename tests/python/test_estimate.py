@@ -34,7 +34,9 @@ class Estimate(InFolder):
             ("camera_from_face", (4, 4), np.float64),
             ("position_m", (3,), np.float64),
             ("light_colour", (3,), np.float32),
+            ("skin_albedo_mean", (3,), np.float32),
             ("sh", (9, 3), np.float64),
+            ("sh4", (25, 3), np.float64),
         ):
             array = getattr(face, name)
             with self.subTest(name=name):
@@ -118,6 +120,11 @@ class Estimate(InFolder):
         self.assertEqual(estimate.faces[0].environment.width, 64)
         self.assertEqual(max(estimate.faces[0].picture.shape), 128)
 
+    def test_regions_say_how_well_they_know_the_colour(self):
+        self.assertIsNone(portrait().faces[0].light_colour_uncertainty_deg)
+        by_regions = fp.estimate(PORTRAIT, shading="regions", prior="smooth", size=64).faces[0]
+        self.assertTrue(0 < by_regions.light_colour_uncertainty_deg < 10)
+
     def test_one_light_for_the_photos_of_a_burst(self):
         estimator = fp.Estimator(deterministic=True)
         bright = portrait_light()
@@ -178,6 +185,11 @@ class Estimate(InFolder):
         self.assertEqual(ours, theirs)
         face, told = estimate.faces[0], theirs["faces"][0]
         self.assertEqual(face.sh.tolist(), told["light"]["spherical_harmonics"]["rgb"])
+        self.assertEqual(face.sh4.tolist(), told["light"]["spherical_harmonics_4"]["rgb"])
+        np.testing.assert_allclose(face.sh4[:9], face.sh, rtol=0, atol=1e-9)
+        for name in ("highlight_residual", "shading_residual", "light_to_ambient_ratio"):
+            self.assertEqual(getattr(face, name), told["light"][name])
+        self.assertTrue(0 < face.shading_residual < 1)
         self.assertEqual(face.position_m.tolist(), told["position_m"])
         self.assertEqual([light.share for light in face.lights],
                          [light["share_of_energy"] for light in told["light"]["main_lights"]])

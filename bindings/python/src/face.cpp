@@ -4,8 +4,11 @@
 #include "bind.h"
 #include "faceprobe/pipeline/estimate.h"
 
+#include <pybind11/stl.h>
+
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 namespace faceprobe::python {
 
@@ -17,6 +20,12 @@ using FacePtr = std::shared_ptr<FaceEstimate>;
 py::tuple box_of(const FaceEstimate& face) {
   const face::Box& box = face.face.box;
   return py::make_tuple(box.x, box.y, box.width, box.height);
+}
+
+py::object skin_albedo_of(const FaceEstimate& face) {
+  const std::optional<Eigen::Vector3f> albedo = pipeline::mean_skin_albedo(face);
+  if (!albedo) return py::none();
+  return table(*albedo);
 }
 
 std::string text_of(const FaceEstimate& face) {
@@ -53,6 +62,16 @@ Colours are linear Rec.709, 1 = the photo's white.)");
       .def_property_readonly(
           "light_colour", [](const FaceEstimate& f) { return table(f.light_colour); },
           "float32 (3,): mean light by what is known of skin, green = 1. A copy.")
+      .def_property_readonly(
+          "light_colour_uncertainty_deg", [](const FaceEstimate& f) { return f.light_colour_uncertainty_deg; },
+          R"(One standard deviation of light_colour: angle to the true colour of the light, degrees.
+
+None where the network split albedo and shading (shading="net"), and of a grey photo.)")
+      .def_property_readonly(
+          "skin_albedo_mean", &skin_albedo_of,
+          R"(float32 (3,): albedo of the skin, linear, mean by the light that falls on it. A copy; None without any.
+
+Its level is assumed: a photo does not tell a dark skin from a short exposure, so this does not say how light a skin is.)")
       .def_property_readonly(
           "crop",
           [](const FaceEstimate& f) {

@@ -63,6 +63,19 @@ void bind_light(py::module_& module) {
 
 Order (0,0), (1,-1), (1,0), (1,1), (2,-2) .. (2,2); (1,-1), (1,0), (1,1) go with y, z, x. A copy.)")
       .def_property_readonly(
+          "sh4", [](const ResultPtr& l) { return table(l->sh4); }, "float64 (25, 3): the same up to order 4. A copy.")
+      .def_property_readonly(
+          "light_to_ambient_ratio", [](const ResultPtr& l) { return lighting::light_to_ambient_ratio(l->lights); },
+          "Energy of the main lights over that of all the rest; 0 without main lights.")
+      .def_property_readonly(
+          "highlight_residual", [](const ResultPtr& l) { return l->light.highlight_residual; },
+          R"(What the light leaves unexplained of the face's highlights: relative root mean square, 0 = nothing.
+
+None where no highlights were used.)")
+      .def_property_readonly(
+          "shading_residual", [](const ResultPtr& l) { return l->light.shading_residual; },
+          "The same of the shading; None where no shading was used.")
+      .def_property_readonly(
           "lights", [](const ResultPtr& l) { return l->lights; }, "list of Light, by falling strength.")
       .def("__repr__", [](const ResultPtr& l) {
         return "<faceprobe.LightResult with " + std::to_string(l->lights.size()) + " main lights>";

@@ -5,8 +5,11 @@
 //   environment.exr .hdr .png   confidence.exr   environment_rest.exr light.usda light.gltf blender.py (scene_files.h)
 //   highlight|diffuse|albedo|shading|normals .exr .png   regions.png
 //   overview.png   report.json (top folder only)
+//
+// joint/ of several photos (write_joint) has a report.json as well.
 
 #include "faceprobe/pipeline/estimate.h"
+#include "faceprobe/pipeline/report.h"
 
 #include <filesystem>
 #include <map>
@@ -39,8 +42,13 @@ std::vector<std::filesystem::path> write_outputs(const std::filesystem::path& fo
                                                  const io::Photo& photo, const EstimateOptions& options,
                                                  const std::string& source, const OutputOptions& output = {});
 
-// The maps and scenes of one light alone, such as the joint light of several photos. Returns and throws as write_outputs().
+// The maps and scenes of one light alone. Returns and throws as write_outputs().
 std::vector<std::filesystem::path> write_light(const std::filesystem::path& folder, const LightResult& light,
                                                const EstimateOptions& options, const OutputOptions& output = {});
+
+// The same of the joint light of several photos, with a report.json of its own (joint_report_json). Returns and throws as write_outputs().
+std::vector<std::filesystem::path> write_joint(const std::filesystem::path& folder, const LightResult& light,
+                                               const std::vector<JointPhoto>& photos, const EstimateOptions& options,
+                                               const OutputOptions& output = {});
 
 }  // namespace faceprobe::pipeline
