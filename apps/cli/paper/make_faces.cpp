@@ -15,8 +15,14 @@ namespace {
 synth::Recipe faces_recipe(bool quick) {
   return {.count = quick ? 256 : 2000, .size_px = 128, .seed = 2, .split = synth::Split::kDev};
 }
+// Every person once: what is measured on four photos of one person is said of that person. Each skin of a person has one photo.
 synth::Recipe light_recipe(bool quick) {
-  return {.count = quick ? 64 : 400, .size_px = 256, .seed = 7, .split = synth::Split::kDev};
+  return {.count = quick ? 64 : 400,
+          .size_px = 256,
+          .seed = 7,
+          .split = synth::Split::kDev,
+          .views_per_person = 1,
+          .samples_per_view = 4};
 }
 synth::Recipe groups_recipe(bool quick) {
   return {.count = quick ? 2 : 100,

@@ -2,7 +2,8 @@
 // What a data set of synthetic faces is made of, apart from the assets: numbers and shares, drawn from one seed.
 //
 // Work is split by person, or by group: one head, expression and set of clothes, seen in a few views (pose and camera), each view lit by many maps,
-// in a few skins. One shard of the data set is one person, so that shards depend on nothing but the seed and their number.
+// in a few skins. One shard of the data set is one person, so that shards depend on nothing but the seed and their number. A set to measure on
+// wants many people rather than many photos of each.
 //
 //   const Recipe recipe{.count = 20000, .size_px = 128, .seed = 7, .split = Split::kTrain};
 
