@@ -59,8 +59,7 @@ void add_eval(CLI::App& program, Action& action) {
           "--weights", options->weights,
           "networks to measure beside what needs none; default: none, or where a stage needs one, the program's")
       ->type_name("[NAME=]FILE");
-  command->add_option("--samples", options->samples, "photos or cases, spread evenly over the data")
-      ->capture_default_str();
+  command->add_option("--samples", options->samples, "photos or cases to measure")->capture_default_str();
   command
       ->add_option(
           "-o,--output", options->output,

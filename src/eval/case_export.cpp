@@ -1,5 +1,6 @@
 #include "faceprobe/eval/case_export.h"
 
+#include "eval/photo_choice.h"
 #include "eval/synthetic_photo.h"
 #include "faceprobe/core/error.h"
 #include "faceprobe/core/region.h"
@@ -52,7 +53,8 @@ std::string CaseExport::validate() const {
 int export_cases(const synth::ShardReader& faces, const std::filesystem::path& folder, const CaseExport& options) {
   if (const std::string problem = options.validate(); !problem.empty()) throw Error(ExitCode::kUsage, problem);
   int written = 0;
-  visit_photos(faces, options.samples, options.progress, [&](int number, const SyntheticPhoto& photo) {
+  const std::vector<int> numbers = chosen_by_person(faces, options.samples);
+  visit_photos(faces, numbers, options.progress, [&](int number, const SyntheticPhoto& photo) {
     if (!photo.sample.lamps.empty()) return;  // a group's room: no one map lights it
     Case one = case_of(photo);
     if (options.scene) one.groups["scene"] = options.scene(photo.sample.map);

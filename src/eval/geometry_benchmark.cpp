@@ -1,5 +1,6 @@
 #include "faceprobe/eval/geometry_benchmark.h"
 
+#include "eval/photo_choice.h"
 #include "eval/synthetic_photo.h"
 #include "faceprobe/core/angles.h"
 #include "faceprobe/core/color.h"
@@ -170,7 +171,8 @@ GeometryScores measure_geometry(const synth::ShardReader& faces, const std::vect
   scores.table.order_labels("tone", tone_names());
   scores.table.order_labels("turn", turn_names());
   std::vector<Gathered> gathered(methods.size());
-  visit_photos(faces, options.samples, options.progress, [&](int number, const SyntheticPhoto& photo) {
+  const std::vector<int> numbers = evenly_chosen(faces, options.samples);
+  visit_photos(faces, numbers, options.progress, [&](int number, const SyntheticPhoto& photo) {
     std::vector<GeometryEstimate> found;
     found.reserve(methods.size());
     for (const GeometryMethod& method : methods) found.push_back(method.find(photo.input()));

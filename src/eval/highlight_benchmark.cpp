@@ -1,5 +1,6 @@
 #include "faceprobe/eval/highlight_benchmark.h"
 
+#include "eval/photo_choice.h"
 #include "eval/synthetic_photo.h"
 #include "faceprobe/core/color.h"
 #include "faceprobe/core/error.h"
@@ -101,7 +102,8 @@ ScoreTable measure_highlights(const synth::ShardReader& faces, const std::vector
   table.order_labels("tone", tone_names());
   table.order_labels("clipped", {"none", "under 5 %", "5 % and more"});
   table.order_labels("size", {"under 15 %", "15 to 25 %", "25 % and more"});
-  visit_photos(faces, options.samples, options.progress, [&](int number, const SyntheticPhoto& photo) {
+  const std::vector<int> numbers = evenly_chosen(faces, options.samples);
+  visit_photos(faces, numbers, options.progress, [&](int number, const SyntheticPhoto& photo) {
     if (options.grey) {
       add_rows(table, number, made_grey(photo), methods, options);
     } else {

@@ -1,6 +1,7 @@
 #include "faceprobe/eval/insert_benchmark.h"
 
 #include "eval/nan.h"
+#include "eval/photo_choice.h"
 #include "eval/synthetic_photo.h"
 #include "faceprobe/core/color.h"
 #include "faceprobe/core/error.h"
@@ -137,7 +138,8 @@ InsertScores measure_insertion(const synth::ShardReader& faces, const std::vecto
   InsertScores scores;
   scores.table.order_labels("tone", tone_names());
   int drawn = 0;
-  visit_photos(faces, options.samples, options.progress, [&](int number, const SyntheticPhoto& photo) {
+  const std::vector<int> numbers = chosen_by_person(faces, options.samples);
+  visit_photos(faces, numbers, options.progress, [&](int number, const SyntheticPhoto& photo) {
     if (!photo.sample.lamps.empty()) return;  // a group's room: no one map lights it
     const Image& linear = photo.layers.linear;
     insert::Scene scene = scene_of(photo, model);

@@ -1,6 +1,7 @@
 #include "faceprobe/eval/relight_benchmark.h"
 
 #include "eval/map_metrics.h"
+#include "eval/photo_choice.h"
 #include "eval/relight_sheet.h"
 #include "eval/synthetic_photo.h"
 #include "faceprobe/core/error.h"
@@ -8,7 +9,6 @@
 #include "faceprobe/eval/light_metrics.h"
 #include "faceprobe/eval/sun_metrics.h"
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -76,8 +76,9 @@ RelightScores measure_relighting(const synth::ShardReader& faces, const std::vec
   scores.table.order_labels("tone", tone_names());
   scores.table.order_labels("turn", turn_names());
   RelightSheet sheet(object, grid, options.rows, static_cast<int>(methods.size()));
+  const std::vector<int> numbers = chosen_by_person(faces, options.samples);
   int visited = 0;
-  visit_photos(faces, options.samples, options.progress, [&](int number, const SyntheticPhoto& photo) {
+  visit_photos(faces, numbers, options.progress, [&](int number, const SyntheticPhoto& photo) {
     if (!photo.sample.lamps.empty()) return;  // a group's room: no one map lights it
     const Eigen::MatrixX3f truth = grid_from_env_map(photo.sample.environment, grid);
     const bool one_lamp = has_dominant_light(truth, grid);
@@ -85,7 +86,7 @@ RelightScores measure_relighting(const synth::ShardReader& faces, const std::vec
     std::map<std::string, std::string> groups = {
         {"tone", photo.tone()}, {"turn", photo.turn()}, {"light", one_lamp ? "one lamp" : "several or soft"}};
     if (options.scene) groups["scene"] = options.scene(photo.sample.map);
-    const bool drawn = sheet.takes(visited++, std::min(options.samples, faces.sample_count()));
+    const bool drawn = sheet.takes(visited++, static_cast<int>(numbers.size()));
     if (drawn) sheet.begin_row(photo.sample.photo, truth);
     const PhotoInput input = photo.input();
     for (const LightMethod& method : methods) {

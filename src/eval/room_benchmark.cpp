@@ -1,6 +1,7 @@
 #include "faceprobe/eval/room_benchmark.h"
 
 #include "eval/nan.h"
+#include "eval/photo_choice.h"
 #include "eval/synthetic_photo.h"
 #include "faceprobe/core/error.h"
 

@@ -1,5 +1,6 @@
 #include "faceprobe/eval/shading_benchmark.h"
 
+#include "eval/photo_choice.h"
 #include "eval/synthetic_photo.h"
 #include "faceprobe/core/angles.h"
 #include "faceprobe/core/error.h"
@@ -70,7 +71,8 @@ ScoreTable measure_shading(const synth::ShardReader& faces, const std::vector<Sh
   if (const std::string problem = options.validate(); !problem.empty()) throw Error(ExitCode::kUsage, problem);
   ScoreTable table;
   table.order_labels("tone", tone_names());
-  visit_photos(faces, options.samples, options.progress, [&](int number, const SyntheticPhoto& photo) {
+  const std::vector<int> numbers = evenly_chosen(faces, options.samples);
+  visit_photos(faces, numbers, options.progress, [&](int number, const SyntheticPhoto& photo) {
     const ByteImage judged = judged_pixels(photo);
     for (const ShadingMethod& method : methods) {
       const ShadingEstimate found = method.split(photo.input());

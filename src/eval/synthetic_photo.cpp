@@ -68,18 +68,9 @@ std::string SyntheticPhoto::turn() const {
   return angle < 15 ? "under 15" : angle < 30 ? "15 to 30" : "30 and more";
 }
 
-std::vector<int> evenly_chosen(const synth::ShardReader& faces, int count) {
-  std::vector<int> numbers;
-  numbers.reserve(static_cast<std::size_t>(count));
-  const int taken = std::min(count, faces.sample_count());
-  for (int i = 0; i < taken; ++i)
-    numbers.push_back(static_cast<int>((static_cast<long long>(i) * faces.sample_count()) / taken));
-  return numbers;
-}
-
-void visit_photos(const synth::ShardReader& faces, int count, const std::function<void(int, int)>& progress,
+void visit_photos(const synth::ShardReader& faces, const std::vector<int>& numbers,
+                  const std::function<void(int, int)>& progress,
                   const std::function<void(int, const SyntheticPhoto&)>& visit) {
-  const std::vector<int> numbers = evenly_chosen(faces, count);
   int done = 0;
   for (const int number : numbers) {
     const SyntheticPhoto photo(faces, number);

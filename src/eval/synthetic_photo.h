@@ -36,11 +36,9 @@ struct SyntheticPhoto {
   Image no_mesh_;
 };
 
-// Evenly over the data set.
-std::vector<int> evenly_chosen(const synth::ShardReader& faces, int count);
-
-// Calls visit(number, photo) for so many photos spread evenly over the data set, but for those that show too little skin.
-void visit_photos(const synth::ShardReader& faces, int count, const std::function<void(int done, int total)>& progress,
+// Calls visit(number, photo) for the samples of these numbers (photo_choice.h), but for those that show too little skin.
+void visit_photos(const synth::ShardReader& faces, const std::vector<int>& numbers,
+                  const std::function<void(int done, int total)>& progress,
                   const std::function<void(int number, const SyntheticPhoto& photo)>& visit);
 
 // Names of the skin tones from light to dark, as tables order them.

@@ -14,7 +14,7 @@ namespace faceprobe::eval {
 
 struct CaseExport {
   int samples =
-      100;  // photos, spread evenly over the data set; groups in rooms and those that show less than 5 % skin are left out
+      100;  // photos, of as many people as possible; groups in rooms and those that show less than 5 % skin are left out
   // The kind of scene that a map is of, by its number in the data, for group "scene"; empty = not known.
   std::function<std::string(int map)> scene = {};
   std::string licence = {};  // of every case

@@ -12,7 +12,7 @@
 namespace faceprobe::eval {
 
 struct InsertBenchmark {
-  int samples = 50;  // photos, spread evenly over the data set; those that show less than 5 % skin are left out
+  int samples = 50;  // photos, of as many people as possible; those that show less than 5 % skin are left out
   int rays = 128;    // per pixel; what noise they leave counts as error
   int nside = 16;    // of the methods' sphere grid
   int rows = 0;      // of photos in the picture

@@ -44,7 +44,7 @@ LightMethod constant_method(const std::string& name, Eigen::MatrixX3f light);
 Eigen::MatrixX3f mean_light(const synth::ShardReader& faces, int samples, int nside = 16);
 
 struct RelightBenchmark {
-  int samples = 100;  // spread evenly over the data set; those that show less than 5 % skin are left out
+  int samples = 100;  // of as many people as possible; those that show less than 5 % skin are left out
   int nside = 16;     // of the methods' sphere grid and the object's
   // The kind of scene that a map is of, "indoor" or "outdoor", by its number in the data; empty = not known.
   std::function<std::string(int map)> scene = {};
