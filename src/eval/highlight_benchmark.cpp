@@ -102,7 +102,7 @@ ScoreTable measure_highlights(const synth::ShardReader& faces, const std::vector
   table.order_labels("tone", tone_names());
   table.order_labels("clipped", {"none", "under 5 %", "5 % and more"});
   table.order_labels("size", {"under 15 %", "15 to 25 %", "25 % and more"});
-  const std::vector<int> numbers = evenly_chosen(faces, options.samples);
+  const std::vector<int> numbers = chosen_by_person(faces, options.samples);
   visit_photos(faces, numbers, options.progress, [&](int number, const SyntheticPhoto& photo) {
     if (options.grey) {
       add_rows(table, number, made_grey(photo), methods, options);
@@ -116,7 +116,7 @@ ScoreTable measure_highlights(const synth::ShardReader& faces, const std::vector
 ByteImage draw_highlights(const synth::ShardReader& faces, const std::vector<HighlightMethod>& methods, int rows) {
   ByteImage sheet;
   int row = 0;
-  for (const int number : evenly_chosen(faces, rows)) {
+  for (const int number : chosen_by_person(faces, rows)) {
     const SyntheticPhoto photo(faces, number);
     std::vector<Image> columns = {photo.layers.linear, picture_times(photo.layers.highlight, 2.0F)};
     columns.reserve(2 + methods.size());

@@ -28,7 +28,7 @@ struct HighlightMethod {
 HighlightMethod black_method();
 
 struct HighlightBenchmark {
-  int samples = 100;  // spread evenly over the data set; those that show less than 5 % skin are left out
+  int samples = 100;  // of as many people as possible; those that show less than 5 % skin are left out
   // Photos made grey before a method sees them: three equal channels in, the mean of three out, against the mean of the true layer's (paper,
   // Sec. 5.2).
   bool grey = false;
