@@ -171,7 +171,7 @@ GeometryScores measure_geometry(const synth::ShardReader& faces, const std::vect
   scores.table.order_labels("tone", tone_names());
   scores.table.order_labels("turn", turn_names());
   std::vector<Gathered> gathered(methods.size());
-  const std::vector<int> numbers = evenly_chosen(faces, options.samples);
+  const std::vector<int> numbers = chosen_by_person(faces, options.samples);
   visit_photos(faces, numbers, options.progress, [&](int number, const SyntheticPhoto& photo) {
     std::vector<GeometryEstimate> found;
     found.reserve(methods.size());
@@ -197,7 +197,7 @@ GeometryScores measure_geometry(const synth::ShardReader& faces, const std::vect
 ByteImage draw_geometry(const synth::ShardReader& faces, const std::vector<GeometryMethod>& methods, int rows) {
   ByteImage sheet;
   int row = 0;
-  for (const int number : evenly_chosen(faces, rows)) {
+  for (const int number : chosen_by_person(faces, rows)) {
     const SyntheticPhoto photo(faces, number);
     std::vector<ByteImage> cells = {photo.sample.photo, normals_picture(photo.view.normal),
                                     regions_picture(photo.view.region)};

@@ -71,7 +71,7 @@ ScoreTable measure_shading(const synth::ShardReader& faces, const std::vector<Sh
   if (const std::string problem = options.validate(); !problem.empty()) throw Error(ExitCode::kUsage, problem);
   ScoreTable table;
   table.order_labels("tone", tone_names());
-  const std::vector<int> numbers = evenly_chosen(faces, options.samples);
+  const std::vector<int> numbers = chosen_by_person(faces, options.samples);
   visit_photos(faces, numbers, options.progress, [&](int number, const SyntheticPhoto& photo) {
     const ByteImage judged = judged_pixels(photo);
     for (const ShadingMethod& method : methods) {

@@ -42,7 +42,7 @@ using SurfaceChange = std::function<void(const face::Face&, const face::Camera&,
 GeometryMethod surface_method(std::string name, std::shared_ptr<const face::FaceFinder> finder, SurfaceChange change);
 
 struct GeometryBenchmark {
-  int samples = 200;  // spread evenly over the data set; those that show less than 5 % skin are left out
+  int samples = 200;  // of as many people as possible; those that show less than 5 % skin are left out
   std::function<void(int done, int total)> progress = {};
 
   std::string validate() const;

@@ -30,7 +30,7 @@ struct ShadingMethod {
 ShadingMethod one_albedo_method();
 
 struct ShadingBenchmark {
-  int samples = 200;  // spread evenly over the data set; those that show less than 5 % skin are left out
+  int samples = 200;  // of as many people as possible; those that show less than 5 % skin are left out
   std::function<void(int done, int total)> progress = {};
 
   std::string validate() const;
