@@ -105,6 +105,8 @@ class CaseMeasurement {
     const Case one = read_case(folder);
     const std::string hash = case_hash(folder);
     std::map<std::string, std::string> groups = one.groups;
+    const auto person = groups.extract("person");
+    const std::string shown = person ? person.mapped() : std::string();
     Eigen::MatrixX3f truth;
     if (one.light) {
       truth = grid_from_env_map(*one.light, grid_);
@@ -113,13 +115,13 @@ class CaseMeasurement {
     for (std::size_t m = 0; m < methods_.size(); ++m) {
       const CaseEntry entry(options_.work, hash, methods_[m].identity);
       if (const std::optional<CaseFigures> known = entry.figures(options_.scoring)) {
-        note(m, one.name, entry, "", *known, *entry.finished_seconds(), groups);
+        note(m, one.name, entry, "", *known, *entry.finished_seconds(), groups, shown);
         continue;
       }
       const CaseRun run = run_or_recall(methods_[m], one, folder, entry);
       const CaseFigures figures = figures_of(one, truth, run.result);
       if (run.failure.empty()) entry.keep(figures, options_.scoring);
-      note(m, one.name, entry, run.failure, figures, run.seconds, groups);
+      note(m, one.name, entry, run.failure, figures, run.seconds, groups, shown);
     }
     ++scores_.cases;
   }
@@ -146,7 +148,8 @@ class CaseMeasurement {
   }
 
   void note(std::size_t m, const std::string& name, const CaseEntry& entry, const std::string& failure,
-            const CaseFigures& figures, double seconds, std::map<std::string, std::string> groups) {
+            const CaseFigures& figures, double seconds, std::map<std::string, std::string> groups,
+            const std::string& person) {
     const std::string& method = methods_[m].name;
     std::map<std::string, std::string> about = {{"folder", entry.folder().filename().string()}};
     if (!failure.empty()) {
@@ -156,8 +159,8 @@ class CaseMeasurement {
     scores_.runs.add({method, name, about, {{"seconds", seconds}}});
     says_[m].light = says_[m].light || figures.has_light;
     says_[m].highlight = says_[m].highlight || figures.has_highlight;
-    if (!figures.light.empty()) waiting_.push_back({m, true, {method, name, groups, figures.light}});
-    if (!figures.highlight.empty()) waiting_.push_back({m, false, {method, name, groups, figures.highlight}});
+    if (!figures.light.empty()) waiting_.push_back({m, true, {method, name, groups, figures.light, person}});
+    if (!figures.highlight.empty()) waiting_.push_back({m, false, {method, name, groups, figures.highlight, person}});
   }
 
   const std::vector<CaseMethod>& methods_;

@@ -39,7 +39,7 @@ Case case_of(const SyntheticPhoto& photo) {
   const Eigen::Isometry3f& head = photo.view.faces.at(0).camera_from_head;
   // Where no head was posed the data has the identity, which is where the camera is.
   if (head.translation().z() < 0) one.pose = {photo.input().camera, head.cast<double>()};
-  one.groups = {{"tone", photo.tone()}};
+  one.groups = {{"person", photo.person}, {"tone", photo.tone()}};
   return one;
 }
 

@@ -85,7 +85,7 @@ struct Gathered {
 
 ScoreRow row_of(const GeometryMethod& method, int number, const SyntheticPhoto& photo, const GeometryEstimate& found,
                 const ByteImage& judged, Gathered& gathered) {
-  ScoreRow row{method.name, std::to_string(number), {{"tone", photo.tone()}, {"turn", photo.turn()}}, {}};
+  ScoreRow row{method.name, std::to_string(number), {{"tone", photo.tone()}, {"turn", photo.turn()}}, {}, photo.person};
   std::vector<double> all;
   std::array<std::vector<double>, kRegionCount> parts;
   const bool there = !found.normal_cam.empty();

@@ -80,7 +80,8 @@ void add_rows(ScoreTable& table, int number, const SyntheticPhoto& photo, const 
                 {"ssim_skin", ssim(masked, truth, photo.skin, options.threads)},
                 {"rmse_whole", error_whole},
                 {"psnr_whole", psnr_of_rmse(error_whole)},
-                {"ssim_whole", ssim(whole, truth, {}, options.threads)}}});
+                {"ssim_whole", ssim(whole, truth, {}, options.threads)}},
+               photo.person});
   }
 }
 

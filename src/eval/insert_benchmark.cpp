@@ -158,7 +158,7 @@ InsertScores measure_insertion(const synth::ShardReader& faces, const std::vecto
         metrics = metrics_of(linear, truth, found);
         cells.back() = encode_srgb(found.picture);
       }
-      scores.table.add({method.name, std::to_string(number), {{"tone", photo.tone()}}, metrics});
+      scores.table.add({method.name, std::to_string(number), {{"tone", photo.tone()}}, metrics, photo.person});
     }
     if (drawn++ < options.rows) append_row(scores.picture, cells);
   });

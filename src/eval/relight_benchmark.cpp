@@ -91,8 +91,8 @@ RelightScores measure_relighting(const synth::ShardReader& faces, const std::vec
     const PhotoInput input = photo.input();
     for (const LightMethod& method : methods) {
       const Eigen::MatrixX3f found = method.light({number, input, photo.sample, photo.view});
-      scores.table.add(
-          {method.name, std::to_string(number), groups, all_metrics(truth, found, object, grid, one_lamp, sun)});
+      scores.table.add({method.name, std::to_string(number), groups,
+                        all_metrics(truth, found, object, grid, one_lamp, sun), photo.person});
       if (drawn) sheet.add(found);
     }
   });

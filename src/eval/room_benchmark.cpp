@@ -65,8 +65,10 @@ std::vector<int> match_lamps(const std::vector<synth::NearLight>& truth, const s
   }
 }
 
-void add_lamps(const std::string& method, const std::string& sample, const std::vector<synth::NearLight>& truth,
-               const std::vector<lighting::Lamp>& found, const RoomBenchmark& options, ScoreTable& table) {
+// `group`: the people in the photo, whose lamps and faces are not independent.
+void add_lamps(const std::string& method, const std::string& sample, const std::string& group,
+               const std::vector<synth::NearLight>& truth, const std::vector<lighting::Lamp>& found,
+               const RoomBenchmark& options, ScoreTable& table) {
   const std::vector<int> match = match_lamps(truth, found, options.most_match_m);
   int matched = 0;
   for (std::size_t t = 0; t < truth.size(); ++t) {
@@ -80,12 +82,16 @@ void add_lamps(const std::string& method, const std::string& sample, const std::
       metrics["found"] = 1;
       metrics["within"] = off.norm() <= options.near_m ? 1 : 0;
     }
-    table.add({method, sample + " lamp " + std::to_string(t + 1), {}, metrics});
+    table.add({method, sample + " lamp " + std::to_string(t + 1), {}, metrics, group});
   }
   int near = 0;
   for (const lighting::Lamp& lamp : found) near += lamp.near ? 1 : 0;
   const int invented = near - matched;
-  table.add({method, sample, {}, {{"invented", static_cast<double>(invented)}, {"inventing", invented > 0 ? 1.0 : 0.0}}});
+  table.add({method,
+             sample,
+             {},
+             {{"invented", static_cast<double>(invented)}, {"inventing", invented > 0 ? 1.0 : 0.0}},
+             group});
 }
 
 }  // namespace
@@ -108,8 +114,8 @@ ScoreTable measure_rooms(const synth::ShardReader& groups, const LookAtGroup& lo
     if (photo.view.faces.size() >= 2) {
       std::vector<lighting::FaceLights> faces = look(photo.input());
       const std::vector<int> match = match_faces(faces, photo.view, photo.input().camera);
-      add_lamps("faces as found", sample, photo.sample.lamps, lighting::triangulate(faces, options.triangulate),
-                options, table);
+      add_lamps("faces as found", sample, photo.person, photo.sample.lamps,
+                lighting::triangulate(faces, options.triangulate), options, table);
       for (std::size_t t = 0; t < photo.view.faces.size(); ++t) {
         const auto f = static_cast<std::size_t>(std::ranges::find(match, static_cast<int>(t)) - match.begin());
         std::map<std::string, double> metrics = {{"face_m", kNaN}, {"face_found", 0}};
@@ -119,10 +125,10 @@ ScoreTable measure_rooms(const synth::ShardReader& groups, const LookAtGroup& lo
           faces[f].position_m = truth;
           faces[f].position_error_m = 1e-3;
         }
-        table.add({"faces as found", sample + " face " + std::to_string(t + 1), {}, metrics});
+        table.add({"faces as found", sample + " face " + std::to_string(t + 1), {}, metrics, photo.person});
       }
-      add_lamps("faces known", sample, photo.sample.lamps, lighting::triangulate(faces, options.triangulate), options,
-                table);
+      add_lamps("faces known", sample, photo.person, photo.sample.lamps,
+                lighting::triangulate(faces, options.triangulate), options, table);
     }
     if (options.progress) options.progress(++done, static_cast<int>(numbers.size()));
   }

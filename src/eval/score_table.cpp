@@ -7,7 +7,7 @@
 namespace faceprobe::eval {
 namespace {
 
-const std::set<std::string> kReserved = {"method", "sample"};
+const std::set<std::string> kReserved = {"method", "sample", "person"};
 
 bool selected(const ScoreRow& row, const Selection& selection) {
   if (!selection.method.empty() && row.method != selection.method) return false;
@@ -15,6 +15,8 @@ bool selected(const ScoreRow& row, const Selection& selection) {
   const auto found = row.groups.find(selection.group);
   return found != row.groups.end() && found->second == selection.label;
 }
+
+const std::string& person_of(const ScoreRow& row) { return row.person.empty() ? row.sample : row.person; }
 
 template <class Map>
 bool any_key_in(const Map& columns, const std::set<std::string>& taken) {
@@ -35,7 +37,7 @@ void ScoreTable::add(ScoreRow row) {
     throw std::invalid_argument("ScoreTable: a row needs the name of its method and of its sample");
   }
   if (any_key_in(row.groups, kReserved) || any_key_in(row.metrics, kReserved)) {
-    throw std::invalid_argument("ScoreTable: no group or metric may be named \"method\" or \"sample\"");
+    throw std::invalid_argument("ScoreTable: no group or metric may be named \"method\", \"sample\" or \"person\"");
   }
   if (any_key_in(row.groups, metrics_) || any_key_in(row.metrics, groups_) || any_key_in(row.groups, keys(row.metrics))) {
     throw std::invalid_argument("ScoreTable: a group and a metric have the same name");
@@ -94,8 +96,16 @@ std::vector<double> ScoreTable::known_values(const std::string& metric, const Se
   return out;
 }
 
+std::vector<std::string> ScoreTable::known_persons(const std::string& metric, const Selection& selection) const {
+  std::vector<std::string> out;
+  for (const ScoreRow& row : rows_) {
+    if (selected(row, selection) && row.metrics.contains(metric)) out.push_back(person_of(row));
+  }
+  return out;
+}
+
 Summary ScoreTable::summary(const std::string& metric, const Selection& selection) const {
-  return summarize(known_values(metric, selection), bootstrap_);
+  return summarize(known_values(metric, selection), known_persons(metric, selection), bootstrap_);
 }
 
 Histogram ScoreTable::histogram(const std::string& metric, const Selection& selection, double low, double high,

@@ -14,8 +14,18 @@ std::string interval(const Summary& s, int decimals) {
   return '[' + rounded(s.mean_low, decimals) + ", " + rounded(s.mean_high, decimals) + ']';
 }
 
+// "100", "100 of 32 people", "97 of 32 people (3 missing)".
+std::string counted_people(const Summary& s) {
+  const std::string people = s.people < s.count ? " of " + std::to_string(s.people) + " people" : "";
+  const std::string missing = s.missing > 0 ? " (" + std::to_string(s.missing) + " missing)" : "";
+  return std::to_string(s.count) + people + missing;
+}
+
 Json row_json(const ScoreRow& row) {
-  return {{"method", row.method}, {"sample", row.sample}, {"groups", Json(row.groups)}, {"metrics", Json(row.metrics)}};
+  Json out = {{"method", row.method}, {"sample", row.sample}};
+  if (!row.person.empty()) out["person"] = row.person;
+  out.update({{"groups", Json(row.groups)}, {"metrics", Json(row.metrics)}});
+  return out;
 }
 
 // Numbers that are not finite become null as nlohmann::json writes them.
@@ -23,6 +33,7 @@ Json summary_json(const std::string& metric, const Selection& selection, const S
   Json out = {{"metric", metric}, {"method", selection.method}};
   if (!selection.group.empty()) out.update({{"group", selection.group}, {"label", selection.label}});
   out.update({{"count", s.count},
+              {"people", s.people},
               {"missing", s.missing},
               {"mean", s.mean},
               {"mean_95", Json::array({s.mean_low, s.mean_high})},
@@ -34,12 +45,12 @@ Json summary_json(const std::string& metric, const Selection& selection, const S
 }  // namespace
 
 std::string ScoreTable::csv() const {
-  std::string out = "method,sample";
+  std::string out = "method,sample,person";
   for (const std::string& group : groups_) out += ',' + csv_cell(group);
   for (const std::string& metric : metrics_) out += ',' + csv_cell(metric);
   out += "\r\n";
   for (const ScoreRow& row : rows_) {
-    out += csv_cell(row.method) + ',' + csv_cell(row.sample);
+    out += csv_cell(row.method) + ',' + csv_cell(row.sample) + ',' + csv_cell(row.person);
     for (const std::string& group : groups_) {
       const auto found = row.groups.find(group);
       out += ',' + (found != row.groups.end() ? csv_cell(found->second) : std::string());
@@ -78,9 +89,8 @@ std::string ScoreTable::markdown(const std::string& metric, int decimals) const 
   std::string out = markdown_head({metric, "n", "mean", "95 % of the mean", "median", "p90"});
   for (const std::string& method : methods()) {
     const Summary s = summary(metric, {.method = method});
-    out += "| " + markdown_cell(method) + " | " + counted(s.count, s.missing) + " | " + rounded(s.mean, decimals) +
-           " | " + interval(s, decimals) + " | " + rounded(s.median, decimals) + " | " + rounded(s.p90, decimals) +
-           " |\n";
+    out += "| " + markdown_cell(method) + " | " + counted_people(s) + " | " + rounded(s.mean, decimals) + " | " +
+           interval(s, decimals) + " | " + rounded(s.median, decimals) + " | " + rounded(s.p90, decimals) + " |\n";
   }
   return out;
 }
@@ -94,8 +104,7 @@ std::string ScoreTable::markdown_by_group(const std::string& metric, const std::
     out += "| " + markdown_cell(method) + " |";
     for (const std::string& label : columns) {
       const Summary s = summary(metric, {method, group, label});
-      out +=
-          ' ' + rounded(s.mean, decimals) + ' ' + interval(s, decimals) + ", n = " + counted(s.count, s.missing) + " |";
+      out += ' ' + rounded(s.mean, decimals) + ' ' + interval(s, decimals) + ", n = " + counted_people(s) + " |";
     }
     out += '\n';
   }

@@ -81,7 +81,8 @@ ScoreTable measure_shading(const synth::ShardReader& faces, const std::vector<Sh
                  {{"tone", photo.tone()}},
                  {{"albedo", scale_invariant_error(found.albedo, photo.sample.albedo, judged)},
                   {"shading", scale_invariant_error(found.shading, photo.sample.shading, judged)},
-                  {"light_colour", colour_error_deg(found.shading, photo.sample.shading, judged)}}});
+                  {"light_colour", colour_error_deg(found.shading, photo.sample.shading, judged)}},
+                 photo.person});
     }
   });
   return table;

@@ -120,19 +120,22 @@ SunError sun_error(const Sun& truth, const std::optional<Sun>& estimate) {
           std::abs(right - elevation_deg(estimate->direction))};
 }
 
-SunCurve sun_curve(std::span<const double> errors_deg, const Bootstrap& bootstrap) {
+SunCurve sun_curve(std::span<const double> errors_deg, const Bootstrap& bootstrap, std::span<const std::string> persons) {
   SunCurve curve;
   curve.count = errors_deg.size();
-  std::vector<double> sorted;
+  std::vector<double> errors;
   for (const double error : errors_deg) {
     if (!std::isfinite(error)) ++curve.missing;
-    sorted.push_back(std::isfinite(error) ? error : kFarthestDeg);
+    errors.push_back(std::isfinite(error) ? error : kFarthestDeg);
   }
+  const std::vector<std::string> nobody(persons.empty() ? errors.size() : 0);
+  const ValuesByPerson people = values_by_person(errors, persons.empty() ? nobody : persons);
+  std::vector<double> sorted = std::move(errors);
   std::sort(sorted.begin(), sorted.end());
   for (std::size_t i = 0; i < curve.within.size(); ++i)
     curve.within[i] = sorted.empty() ? kNoAngle : share_within(sorted, SunCurve::kAnglesDeg[i]);
   curve.mark_deg = quantile_of_sorted(sorted, SunCurve::kMark);
-  const auto [low, high] = bootstrap_interval(sorted, bootstrap, [](std::span<double> drawn) {
+  const auto [low, high] = cluster_interval(people, bootstrap, [](std::span<double> drawn) {
     std::sort(drawn.begin(), drawn.end());
     return quantile_of_sorted(drawn, SunCurve::kMark);
   });
@@ -147,7 +150,7 @@ std::string sun_markdown(const ScoreTable& table, const std::string& group, cons
     const Selection rows{method, group, label};
     const std::vector<double> errors = table.known_values("sun_centroid", rows);
     if (errors.empty()) continue;
-    const SunCurve curve = sun_curve(errors);
+    const SunCurve curve = sun_curve(errors, {}, table.known_persons("sun_centroid", rows));
     const auto median = [&](const std::string& metric) {
       std::vector<double> values = table.known_values(metric, rows);
       std::erase_if(values, [](double value) { return !std::isfinite(value); });

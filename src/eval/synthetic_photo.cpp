@@ -1,5 +1,6 @@
 #include "eval/synthetic_photo.h"
 
+#include "eval/photo_choice.h"
 #include "faceprobe/core/angles.h"
 #include "faceprobe/core/region.h"
 #include "faceprobe/eval/skin_tone.h"
@@ -11,7 +12,7 @@ namespace faceprobe::eval {
 
 SyntheticPhoto::SyntheticPhoto(const synth::ShardReader& faces, int number)
     : sample(faces.copy_sample(number)), view(faces.copy_view(number)), layers(synth::photo_layers(sample)),
-      face(synth::face_mask(view, 1.0F)), skin(synth::skin_mask(view)) {
+      face(synth::face_mask(view, 1.0F)), skin(synth::skin_mask(view)), person(person_key(faces, number)) {
   if (faces.has_meshes()) {
     synth::FoundMesh found = faces.copy_mesh(number);
     const auto is_skin = [](std::uint8_t region) { return region >= 1 && region <= kSkinRegionCount; };

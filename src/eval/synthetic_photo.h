@@ -15,9 +15,10 @@ struct SyntheticPhoto {
   synth::Sample sample;
   synth::ViewLayers view;
   synth::PhotoLayers layers;
-  ByteImage face;  // mask that the method is given
-  Image mesh;      // and the mesh's normals
-  ByteImage skin;  // where it is judged: the face's own skin inside that mask
+  ByteImage face;      // mask that the method is given
+  Image mesh;          // and the mesh's normals
+  ByteImage skin;      // where it is judged: the face's own skin inside that mask
+  std::string person;  // whom it shows, or which group (photo_choice.h)
 
   SyntheticPhoto(const synth::ShardReader& faces, int number);
 

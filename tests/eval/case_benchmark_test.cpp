@@ -104,6 +104,19 @@ TEST(CaseBenchmark, HighlightsAreJudgedInTheMaskAlone) {
   EXPECT_NEAR(scores.highlight.summary("rmse").mean, 25.5 / std::sqrt(3.0), 0.02);
 }
 
+TEST(CaseBenchmark, CasesSayWhomTheyShow) {
+  const TwoCases two;
+  for (const char* name : {"a", "b"}) {
+    Case one = read_case(two.data() / name);
+    one.groups["person"] = "ann";
+    write_case(two.data() / name, one);
+  }
+  const CaseScores scores = measure_cases(two.data(), {ambient_case_method()}, two.options());
+  EXPECT_EQ(scores.light.summary("diffuse").count, 2U);
+  EXPECT_EQ(scores.light.summary("diffuse").people, 1U);
+  EXPECT_FALSE(scores.light.groups().contains("person"));  // no table by person
+}
+
 TEST(CaseBenchmark, WhatIsKnownIsNotRunAgain) {
   const TwoCases two(false);
   std::map<std::string, int> calls;
@@ -240,6 +253,7 @@ TEST(CaseExport, PhotosBecomeCasesWithTheirTruths) {
   EXPECT_EQ(one.photo, small.truth.photo);
   EXPECT_EQ(one.groups.at("scene"), "indoor");
   EXPECT_TRUE(one.groups.contains("tone"));
+  EXPECT_EQ(one.groups.at("person"), read_case(cases / "000001").groups.at("person"));
   EXPECT_EQ(one.licence, "CC0");
   // In the middle of the ball, which looks at the camera. Half floats; RGBE for the map.
   EXPECT_EQ(one.mask(16, 16), 255);

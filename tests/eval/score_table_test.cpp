@@ -54,6 +54,7 @@ TEST(ScoreTable, RefusesRowsThatWouldConfuse) {
   EXPECT_THROW(table.add({.method = "", .sample = "9"}), std::invalid_argument);
   EXPECT_THROW(table.add({.method = "a", .sample = ""}), std::invalid_argument);
   EXPECT_THROW(table.add({.method = "a", .sample = "9", .groups = {{"method", "b"}}}), std::invalid_argument);
+  EXPECT_THROW(table.add({.method = "a", .sample = "9", .groups = {{"person", "b"}}}), std::invalid_argument);
   EXPECT_THROW(table.add({.method = "a", .sample = "9", .groups = {{"rmse", "b"}}}), std::invalid_argument);
   EXPECT_THROW(table.add({.method = "a", .sample = "9", .metrics = {{"skin", 1}}}), std::invalid_argument);
   EXPECT_THROW(table.add({.method = "a", .sample = "9", .groups = {{"x", "b"}}, .metrics = {{"x", 1}}}),
@@ -64,10 +65,10 @@ TEST(ScoreTable, RefusesRowsThatWouldConfuse) {
 
 TEST(ScoreTable, Csv) {
   ScoreTable table;
-  table.add({.method = "a,b", .sample = "say \"x\"", .groups = {{"g", "l"}}, .metrics = {{"m", 0.1}}});
+  table.add({.method = "a,b", .sample = "say \"x\"", .groups = {{"g", "l"}}, .metrics = {{"m", 0.1}}, .person = "ann"});
   table.add({.method = "c", .sample = "2", .metrics = {{"m", kNan}, {"n", 1e300}}});
-  EXPECT_EQ(table.csv(), "method,sample,g,m,n\r\n\"a,b\",\"say \"\"x\"\"\",l,0.1,\r\nc,2,,,1e+300\r\n");
-  EXPECT_EQ(ScoreTable().csv(), "method,sample\r\n");
+  EXPECT_EQ(table.csv(), "method,sample,person,g,m,n\r\n\"a,b\",\"say \"\"x\"\"\",ann,l,0.1,\r\nc,2,,,,1e+300\r\n");
+  EXPECT_EQ(ScoreTable().csv(), "method,sample,person\r\n");
 }
 
 TEST(ScoreTable, Json) {
@@ -110,6 +111,48 @@ TEST(ScoreTable, Markdown) {
             "|---|---:|---:|\n"
             "| yang | 8.0 [-, -], n = 1 | 4.0 [-, -], n = 1 |\n"
             "| net | - [-, -], n = 0 (1 missing) | 2.0 [-, -], n = 1 |\n");
+}
+
+// Two photos each of three people.
+ScoreTable three_people() {
+  ScoreTable table({.seed = 3, .resamples = 200});
+  for (int i = 0; i < 6; ++i) {
+    table.add({.method = "net",
+               .sample = std::to_string(i),
+               .groups = {{"skin", i == 5 ? "dark" : "tan"}},
+               .metrics = {{"rmse", 10 * (i / 2) + i % 2}},
+               .person = "person " + std::to_string(i / 2)});
+  }
+  return table;
+}
+
+TEST(ScoreTable, IntervalsDrawPeople) {
+  const ScoreTable table = three_people();
+  const Summary s = table.summary("rmse");
+  EXPECT_EQ(s.count, 6U);
+  EXPECT_EQ(s.people, 3U);
+  const std::vector<double> values = {0, 1, 10, 11, 20, 21};
+  const std::vector<std::string> persons = {"a", "a", "b", "b", "c", "c"};
+  const Summary expected = summarize(values, persons, {.seed = 3, .resamples = 200});
+  EXPECT_EQ(s.mean_low, expected.mean_low);
+  EXPECT_EQ(s.mean_high, expected.mean_high);
+  // Of the one dark photo there is one person, of the tan ones all three.
+  EXPECT_EQ(table.summary("rmse", {.group = "skin", .label = "dark"}).people, 1U);
+  EXPECT_EQ(table.summary("rmse", {.group = "skin", .label = "tan"}).people, 3U);
+  EXPECT_EQ(table.known_persons("rmse").at(5), "person 2");
+  EXPECT_EQ(small_table().known_persons("rmse"), (std::vector<std::string>{"1", "2", "1", "2"}));  // the samples
+}
+
+TEST(ScoreTable, TablesTellPeople) {
+  const ScoreTable table = three_people();
+  EXPECT_NE(table.markdown("rmse", 1).find("| net | 6 of 3 people | 10.5 | ["), std::string::npos);
+  const std::string by_skin = table.markdown_by_group("rmse", "skin", 1);
+  EXPECT_NE(by_skin.find("n = 5 of 3 people |"), std::string::npos) << by_skin;
+  EXPECT_NE(by_skin.find("n = 1 |"), std::string::npos) << by_skin;
+  const nlohmann::json json = nlohmann::json::parse(table.json());
+  EXPECT_EQ(json["rows"][5]["person"], "person 2");
+  EXPECT_EQ(json["summaries"][0]["people"], 3);
+  EXPECT_FALSE(nlohmann::json::parse(small_table().json())["rows"][0].contains("person"));
 }
 
 }  // namespace

@@ -151,6 +151,26 @@ TEST(SunMetrics, TheMarksIntervalHoldsTheMarkOfMostDraws) {
   EXPECT_NEAR(curve.mark_high_deg, 299.25 + 17, 3);
 }
 
+TEST(SunMetrics, TheMarksIntervalDrawsPeople) {
+  // 25 people with 16 errors each, all of a person's the same: what is known of the mark is known from 25 values.
+  std::vector<double> errors;
+  std::vector<double> alone;
+  std::vector<std::string> persons;
+  for (int i = 0; i < 400; ++i) {
+    errors.push_back(i / 16);
+    persons.push_back(std::to_string(i / 16));
+    if (i % 16 == 0) alone.push_back(i / 16);
+  }
+  const SunCurve people = sun_curve(errors, {}, persons);
+  const SunCurve of_alone = sun_curve(alone);
+  // Between the ranks of 400 values and those of 25 there is at most one person.
+  EXPECT_NEAR(people.mark_low_deg, of_alone.mark_low_deg, 1);
+  EXPECT_NEAR(people.mark_high_deg, of_alone.mark_high_deg, 1);
+  const SunCurve independent = sun_curve(errors);
+  EXPECT_GT(people.mark_high_deg - people.mark_low_deg, 2 * (independent.mark_high_deg - independent.mark_low_deg));
+  EXPECT_EQ(independent.mark_deg, people.mark_deg);
+}
+
 TEST(SunMetrics, TheTableTellsMethodsAndScenesApart) {
   ScoreTable table;
   const auto row = [&](const char* method, const char* sample, const char* scene, double off) {

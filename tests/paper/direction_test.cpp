@@ -39,6 +39,8 @@ TEST(YalePictures, AreThoseThatAreThereWithTheirLightsInOurFrame) {
   const std::vector<YalePicture> pictures = yale_pictures(folder.path(), 1);
   ASSERT_EQ(pictures.size(), 3U);  // one is too far off the axis, one has no file
   EXPECT_EQ(pictures[1].name, "left");
+  EXPECT_EQ(pictures[1].subject, "a");
+  EXPECT_EQ(pictures[2].subject, "b");
   EXPECT_NEAR(azimuth_deg(pictures[1].light), -40, 1e-9);  // the database counts towards the subject's right
   EXPECT_NEAR(elevation_deg(pictures[2].light), 25, 1e-9);
   EXPECT_NEAR(pictures[2].axis_deg, 25, 1e-9);
@@ -49,7 +51,7 @@ TEST(YalePictures, AreThoseThatAreThereWithTheirLightsInOurFrame) {
 
 TEST(YalePictures, AnAngleThatIsNoneIsRefused) {
   const TempFolder folder;
-  write_text(folder / "lights.csv", "file,azimuth_deg,elevation_deg\nx.png,left,0\n");
+  write_text(folder / "lights.csv", "file,subject,azimuth_deg,elevation_deg\nx.png,a,left,0\n");
   expect_error(ExitCode::kInput, {"lights.csv", "left"}, [&] { yale_pictures(folder.path(), 1); });
 }
 
@@ -61,6 +63,7 @@ TEST(MeasureYale, StraightAheadIsOffByTheFlashsOwnAngle) {
   // 25 degrees are of the second subset.
   EXPECT_EQ(scores.labels("flash"), (std::vector<std::string>{"0 - 12", "12 - 25", "25 - 50"}));
   EXPECT_NEAR(scores.known_values("main_light_deg", {.group = "flash", .label = "25 - 50"}).at(0), 40, 1e-9);
+  EXPECT_EQ(scores.known_persons("main_light_deg"), (std::vector<std::string>{"a", "a", "b"}));
 }
 
 void write_london(const std::filesystem::path& folder) {
@@ -100,6 +103,7 @@ TEST(MeasureLondon, StraightAheadFindsOneLightOfTwoAndAgreesWithItself) {
   const eval::ScoreTable scores = measure_london(read_london(folder.path(), 1), {}, [&] { ++photos; });
   EXPECT_EQ(photos, 4);
   EXPECT_EQ(scores.rows().size(), 4U);
+  EXPECT_EQ(scores.summary("strongest_deg").people, 2U);
   const auto mean = [&](const char* metric) { return scores.summary(metric).mean; };
   EXPECT_NEAR(mean("strongest_deg"), 0, 1e-9);
   EXPECT_NEAR(mean("recall_deg"), 22.5, 1e-9);  // 0 and 45

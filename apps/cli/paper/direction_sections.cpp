@@ -27,8 +27,9 @@ eval::ScoreTable main_lights_and_lamp(const eval::ScoreTable& scores, const std:
   eval::ScoreTable rows;
   rows.order_labels("flash", yale_flash_labels());
   for (const eval::ScoreRow& row : scores.rows()) {
-    rows.add({row.method, row.sample, row.groups, {{"deg", row.metrics.at("main_light_deg")}}});
-    if (row.method == lamp_of) rows.add({kLamp, row.sample, row.groups, {{"deg", row.metrics.at("lamp_deg")}}});
+    rows.add({row.method, row.sample, row.groups, {{"deg", row.metrics.at("main_light_deg")}}, row.person});
+    if (row.method == lamp_of)
+      rows.add({kLamp, row.sample, row.groups, {{"deg", row.metrics.at("lamp_deg")}}, row.person});
   }
   return rows;
 }
@@ -51,7 +52,7 @@ eval::ReportSection yale_section(const std::vector<YalePicture>& pictures, const
           "crops are too tight for the network's layers: only its normals are used, and the paper's solver, which "
           "lives by highlights, has no answer. The single lamp, without other light and cast shadows, is a "
           "yardstick: it is what these pictures were made with.\n\n"
-          "Intervals take pictures as independent. Several show one person, so they are somewhat too narrow.",
+          "Intervals draw people with all of their pictures. Of so few people they are still somewhat too narrow.",
       .command = "bench_direction --data DIR --set yale --every " + std::to_string(plan.direction_step())};
   if (pictures.empty()) {
     section.missing = "There are no pictures in real/yaleB of the data folder; docs/data.md says what belongs there.";
@@ -144,8 +145,8 @@ eval::ReportSection london_section(const LondonSet& london, const PaperPlan& pla
           "The London set: everybody sat under the same three lights, whose directions were measured from the "
           "reflections in their eyes and are known to about 5 degrees. So estimates have to agree with them, and "
           "with each other. A person counts when both photos, neutral and smiling, have an answer.\n\n"
-          "Intervals take photos as independent. There are two of each person, so they are somewhat too narrow, but "
-          "for those by expression. The set does not say how light or dark a skin is; the ethnicity in its table is "
+          "Intervals draw people with both of their photos. The set does not say how light or dark a skin is; the "
+          "ethnicity in its table is "
           "what comes nearest.",
       .command = "bench_direction --data DIR --set london --every " + std::to_string(plan.direction_step())};
   if (london.people.empty()) {

@@ -107,7 +107,7 @@ void add_rows(const std::string& name, const LondonSet& london, const std::vecto
       if (name == kStraightAhead) metrics.erase("map_correlation");
       std::map<std::string, std::string> groups = {{"expression", kExpressions[e]}};
       if (!person.ethnicity.empty()) groups["ethnicity"] = person.ethnicity;
-      scores.add({name, person.id + " " + kExpressions[e], std::move(groups), std::move(metrics)});
+      scores.add({name, person.id + " " + kExpressions[e], std::move(groups), std::move(metrics), person.id});
     }
   }
 }

@@ -22,7 +22,7 @@ namespace faceprobe::cli {
 //   centroid_off_deg        it to the mean of the setting's centroids
 //   map_correlation         of the map with those of other people, mean: agreement_with_others(); not of the light straight ahead
 //   neutral_to_smiling_deg  between the person's two centroids; of smiling photos alone
-// Groups: expression, and ethnicity where it is known.
+// Groups: expression, and ethnicity where it is known. Intervals draw people.
 eval::ScoreTable measure_london(const LondonSet& london, const std::vector<DirectionSetting>& settings,
                                 const PhotoDone& done = {});
 

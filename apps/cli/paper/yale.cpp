@@ -87,6 +87,7 @@ std::vector<std::string> yale_flash_labels() {
 std::vector<YalePicture> yale_pictures(const std::filesystem::path& folder, int every) {
   const CsvTable table = read_csv(folder / "lights.csv");
   const std::size_t file = table.column("file");
+  const std::size_t subject = table.column("subject");
   const std::size_t azimuth = table.column("azimuth_deg");
   const std::size_t elevation = table.column("elevation_deg");
   std::vector<YalePicture> pictures;
@@ -98,7 +99,7 @@ std::vector<YalePicture> yale_pictures(const std::filesystem::path& folder, int 
     const double axis = angle_between_deg(light, Eigen::Vector3d::UnitZ());
     const auto path = folder / "images" / row[file];
     if (axis > kYaleMaxAxisDeg || !std::filesystem::exists(path)) continue;
-    if (usable++ % every == 0) pictures.push_back({path.stem().string(), path, light, axis});
+    if (usable++ % every == 0) pictures.push_back({path.stem().string(), path, light, axis, row[subject]});
   }
   return pictures;
 }
@@ -113,7 +114,7 @@ eval::ScoreTable measure_yale(const std::vector<YalePicture>& pictures, const st
   scores.order_labels("flash", labels);
   for (const YalePicture& picture : pictures) {
     const auto add = [&](const std::string& name, const FlashMetrics& metrics) {
-      scores.add({name, picture.name, {{"flash", labels[subset_of(picture.axis_deg)]}}, metrics});
+      scores.add({name, picture.name, {{"flash", labels[subset_of(picture.axis_deg)]}}, metrics, picture.subject});
     };
     add(kStraightAhead, {{"main_light_deg", picture.axis_deg}, {"centroid_deg", picture.axis_deg}});
     const io::Photo as_srgb = io::load_photo(picture.file);

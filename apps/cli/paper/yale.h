@@ -26,13 +26,14 @@ struct YalePicture {
   std::filesystem::path file;
   Eigen::Vector3d light;  // unit, camera frame
   double axis_deg = 0;    // from the camera axis
+  std::string subject;    // whom it shows
 };
 // Every n-th of those whose file is there. Throws Error(kInput) for a table that cannot be read.
 std::vector<YalePicture> yale_pictures(const std::filesystem::path& folder, int every);
 
 // A row a picture and setting, and one of a light straight ahead, which is what no look at the photo gives. Metrics, degrees from the flash:
 // main_light_deg, centroid_deg (of the light's energy), lamp_deg (the single lamp that fits the shading best); NaN where there is no such answer.
-// face: 1, or 0 where none was found. Group: flash. The settings' landmarks are replaced.
+// face: 1, or 0 where none was found. Group: flash. Rows say whom they show, so intervals draw subjects. The settings' landmarks are replaced.
 eval::ScoreTable measure_yale(const std::vector<YalePicture>& pictures, const std::vector<DirectionSetting>& settings,
                               const PhotoDone& done = {});
 

@@ -70,7 +70,7 @@ struct CaseScores {
   // Method, case, reason, folder; empty when nothing failed.
   std::string missing_markdown() const;
 };
-// Groups of the first two tables are the cases' own, "light" ("one lamp", "several or soft") and "failure" (the reason). All cases are read before a
+// Groups of the first two tables are the cases' own but for "person", which says whom a row shows, "light" ("one lamp", "several or soft") and "failure" (the reason). All cases are read before a
 // method runs. Throws Error(kUsage) for options that do not validate, Error(kInput) for a case that is not in order or
 // has a group of a metric's name, Error(kOutput).
 CaseScores measure_cases(const std::filesystem::path& data, const std::vector<CaseMethod>& methods,

@@ -24,7 +24,7 @@ struct CaseExport {
 };
 
 // One folder a photo, named by its number in the data; returns how many. The mask is the face's own skin inside the face that an estimate would
-// find, normals are those of skin, eyes and mouth. Group: tone. Throws Error(kUsage) for options that do not validate, Error(kInput), Error(kOutput).
+// find, normals are those of skin, eyes and mouth. Groups: tone, and person. Throws Error(kUsage) for options that do not validate, Error(kInput), Error(kOutput).
 int export_cases(const synth::ShardReader& faces, const std::filesystem::path& folder, const CaseExport& options);
 
 }  // namespace faceprobe::eval

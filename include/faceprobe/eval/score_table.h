@@ -23,6 +23,8 @@ struct ScoreRow {
   std::string sample;
   std::map<std::string, std::string> groups = {};  // kind of group -> this sample's label: {"skin", "tan"}
   std::map<std::string, double> metrics = {};      // name -> value; NaN where the method failed
+  // Whom the sample shows, by any name: intervals draw people, not samples (statistics.h). Empty: somebody whom no other sample shows.
+  std::string person = {};
 };
 
 // Which rows to look at. An empty method or group stands for all.
@@ -38,7 +40,7 @@ class ScoreTable {
   explicit ScoreTable(const Bootstrap& bootstrap = {}) : bootstrap_(bootstrap) {}
 
   // Throws std::invalid_argument when the method or the sample has no name, the pair is there already, or a group and a
-  // metric would share a column's name ("method" and "sample" are taken).
+  // metric would share a column's name ("method", "sample" and "person" are taken).
   void add(ScoreRow row);
   // The order in which tables show the labels of a group; labels it does not name follow by name.
   void order_labels(const std::string& group, std::vector<std::string> labels);
@@ -53,16 +55,18 @@ class ScoreTable {
   std::vector<double> values(const std::string& metric, const Selection& selection = {}) const;
   // The same without the rows that have none of this metric.
   std::vector<double> known_values(const std::string& metric, const Selection& selection = {}) const;
-  // Of the known values: where a row has none of this metric nothing is missing.
+  // Whose each of these values is; where the row does not say, the sample's name.
+  std::vector<std::string> known_persons(const std::string& metric, const Selection& selection = {}) const;
+  // Of the known values: where a row has none of this metric nothing is missing. The interval draws people.
   Summary summary(const std::string& metric, const Selection& selection = {}) const;
   Histogram histogram(const std::string& metric, const Selection& selection, double low, double high, int bins) const;
 
-  // One line a row: method, sample, groups, metrics; RFC 4180; missing values are empty, numbers read back exactly.
+  // One line a row: method, sample, person, groups, metrics; RFC 4180; missing values are empty, numbers read back exactly.
   std::string csv() const;
   // {"bootstrap": {...}, "rows": [...], "summaries": [...]}: a summary for each metric and method, over all rows and for
   // each label; missing values are null. Bytes that are not UTF-8 are replaced.
   std::string json() const;
-  // Tables for a report: one line a method. Missing values are told beside the count.
+  // Tables for a report: one line a method. Missing values are told beside the count, and people where they are fewer.
   std::string markdown(const std::string& metric, int decimals = 3) const;
   // Mean and interval of each label, one column a label.
   std::string markdown_by_group(const std::string& metric, const std::string& group, int decimals = 3) const;

@@ -68,7 +68,9 @@ struct SunCurve {
   double mark_high_deg = 0;
 };
 // NaN everywhere for no errors. Their order does not matter. Throws std::invalid_argument when bootstrap.resamples < 1.
-SunCurve sun_curve(std::span<const double> errors_deg, const Bootstrap& bootstrap = {});
+// `persons`: whom each error is of, for an interval that draws people (statistics.h); empty = nobody has two.
+SunCurve sun_curve(std::span<const double> errors_deg, const Bootstrap& bootstrap = {},
+                   std::span<const std::string> persons = {});
 
 // A Markdown table, one line a method: the curve of metric "sun_centroid", and the medians of "sun_azimuth" and "sun_elevation". Rows
 // without the metric (their light has no sun) are left out, those where it is NaN are missing. `group`, `label`: of these rows alone; an
