@@ -45,8 +45,9 @@ int eval_highlight(const EvalOptions& options) {
   const net::Device device = net::device_from_name(options.device);
   for (const std::string& weights : options.weights)
     methods.push_back(network_highlight_method(weights, device, options.threads));
-  const eval::ScoreTable table = eval::measure_highlights(
+  eval::ScoreTable table = eval::measure_highlights(
       faces, methods, {.samples = options.samples, .threads = options.threads, .progress = eval_progress()});
+  if (!options.weights.empty()) table.compare_with(methods.back().name);  // the network named last
   fmt::print("{}", report(table, options));
   if (options.output.empty()) return 0;
   const std::filesystem::path folder = options.output;

@@ -16,11 +16,12 @@ int eval_insert(const EvalOptions& options) {
                       .prior = options.prior,
                       .threads = options.threads});
   const render::Model model = assets::model_named(options.object.empty() ? "spheres" : options.object).model;
-  const eval::InsertScores scores = eval::measure_insertion(faces, methods, model,
-                                                            {.samples = options.samples,
-                                                             .rows = options.output.empty() ? 0 : options.rows,
-                                                             .threads = options.threads,
-                                                             .progress = eval_progress()});
+  eval::InsertScores scores = eval::measure_insertion(faces, methods, model,
+                                                      {.samples = options.samples,
+                                                       .rows = options.output.empty() ? 0 : options.rows,
+                                                       .threads = options.threads,
+                                                       .progress = eval_progress()});
+  scores.table.compare_with(methods.front().name);  // the whole estimate
   const eval::ScoreTable& table = scores.table;
   fmt::print("{} photos of {}.\n", table.rows().size() / methods.size(), options.data);
   fmt::print("\n### What the object changes of the photo, RMSE of 255\n\n{}", table.markdown("rmse", 1));

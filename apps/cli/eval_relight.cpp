@@ -49,7 +49,8 @@ int eval_relight(const EvalOptions& options) {
   eval::RelightBenchmark benchmark{
       .samples = options.samples, .rows = options.output.empty() ? 0 : options.rows, .progress = eval_progress()};
   if (!options.scenes.empty()) benchmark.scene = scene_of_maps(options.scenes, faces.recipe());
-  const eval::RelightScores scores = eval::measure_relighting(faces, methods, object, benchmark);
+  eval::RelightScores scores = eval::measure_relighting(faces, methods, object, benchmark);
+  scores.table.compare_with(methods.front().name);  // the whole estimate
   const eval::ScoreTable& table = scores.table;
   fmt::print("{} photos of {}.\n", table.rows().size() / std::max<std::size_t>(1, methods.size()), options.data);
   print(table, "Diffuse object, RMSE of 255", "diffuse", 1);

@@ -108,6 +108,32 @@ Summary ScoreTable::summary(const std::string& metric, const Selection& selectio
   return summarize(known_values(metric, selection), known_persons(metric, selection), bootstrap_);
 }
 
+Summary ScoreTable::difference(const std::string& metric, const std::string& than, const Selection& selection) const {
+  if (selection.method.empty()) throw std::invalid_argument("ScoreTable: a difference is that of one method");
+  std::map<std::string, double> reference;  // of each sample
+  for (const ScoreRow& row : rows_) {
+    const auto found = row.metrics.find(metric);
+    if (row.method == than && found != row.metrics.end()) reference[row.sample] = found->second;
+  }
+  std::vector<double> differences;
+  std::vector<std::string> persons;
+  for (const ScoreRow& row : rows_) {
+    const auto found = row.metrics.find(metric);
+    if (!selected(row, selection) || found == row.metrics.end()) continue;
+    const auto other = reference.find(row.sample);
+    // Infinity less infinity is no number, and either alone is none to take a mean of: all are missing.
+    differences.push_back(other == reference.end() ? std::numeric_limits<double>::quiet_NaN()
+                                                   : found->second - other->second);
+    persons.push_back(person_of(row));
+  }
+  return summarize(differences, persons, bootstrap_);
+}
+
+bool ScoreTable::compares() const {
+  return !reference_.empty() &&
+         std::any_of(rows_.begin(), rows_.end(), [&](const ScoreRow& row) { return row.method == reference_; });
+}
+
 Histogram ScoreTable::histogram(const std::string& metric, const Selection& selection, double low, double high,
                                 int bins) const {
   return eval::histogram(values(metric, selection), low, high, bins);

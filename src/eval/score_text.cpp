@@ -70,6 +70,13 @@ std::string ScoreTable::json() const {
   Json summaries = Json::array();
   const auto add_summary = [&](const std::string& metric, const Selection& selection) {
     summaries.push_back(summary_json(metric, selection, summary(metric, selection)));
+    if (!compares() || selection.method == reference_) return;
+    const Summary s = difference(metric, reference_, selection);
+    summaries.back()["minus"] = {{"method", reference_},
+                                 {"count", s.count},
+                                 {"people", s.people},
+                                 {"mean", s.mean},
+                                 {"mean_95", Json::array({s.mean_low, s.mean_high})}};
   };
   for (const std::string& metric : metrics_) {
     for (const std::string& method : methods()) {
@@ -86,11 +93,19 @@ std::string ScoreTable::json() const {
 }
 
 std::string ScoreTable::markdown(const std::string& metric, int decimals) const {
-  std::string out = markdown_head({metric, "n", "mean", "95 % of the mean", "median", "p90"});
+  std::vector<std::string> titles = {metric, "n", "mean", "95 % of the mean", "median", "p90"};
+  if (compares()) titles.push_back("minus " + reference_);
+  std::string out = markdown_head(titles);
   for (const std::string& method : methods()) {
     const Summary s = summary(metric, {.method = method});
     out += "| " + markdown_cell(method) + " | " + counted_people(s) + " | " + rounded(s.mean, decimals) + " | " +
-           interval(s, decimals) + " | " + rounded(s.median, decimals) + " | " + rounded(s.p90, decimals) + " |\n";
+           interval(s, decimals) + " | " + rounded(s.median, decimals) + " | " + rounded(s.p90, decimals) + " |";
+    if (compares() && method == reference_) out += " |";
+    if (compares() && method != reference_) {
+      const Summary d = difference(metric, reference_, {.method = method});
+      out += ' ' + rounded(d.mean, decimals) + ' ' + interval(d, decimals) + " |";
+    }
+    out += '\n';
   }
   return out;
 }

@@ -1,5 +1,7 @@
 #include "faceprobe/eval/earlier_rows.h"
 
+#include "faceprobe/eval/paired_column.h"
+
 #include <gtest/gtest.h>
 
 namespace faceprobe::eval {
@@ -62,6 +64,23 @@ TEST(EarlierRows, StayMissingWhereATableDoesNotTakeThem) {
   EXPECT_EQ(now.sections[0].tables[0].rows.size(), 2U);
   EXPECT_EQ(now.sections[0].tables[1].rows.size(), 1U);
   EXPECT_EQ(now.sections[0].missing, missing);
+}
+
+// Ours was another then: so were the differences, which neither prove that the photos are others nor come along.
+TEST(EarlierRows, LeaveTheirDifferencesToOursBehind) {
+  PaperReport now = report_with({{.name = "net", .values = {20, 100}, .ours = true}, kEmpty});
+  ReportTable& table = now.sections[0].tables[0];
+  table.columns.emplace_back(kDifferenceColumn);
+  table.rows[1].values.emplace_back(113.4);
+  PaperReport before = report_with({{.name = "net", .values = {32, 100}, .ours = true}, kEmpty});
+  ReportTable& old = before.sections[0].tables[0];
+  old.columns.emplace_back(kDifferenceColumn);
+  old.rows[1].values.emplace_back(101.4);
+  old.rows.push_back({.name = "rival", .values = {45, 100, 13}});
+  ASSERT_EQ(add_earlier_rows(now, before), std::set<std::string>{"rival"});
+  EXPECT_EQ(table.rows[1].values[2], 113.4);
+  EXPECT_EQ(table.rows[2].values[0], 45);
+  EXPECT_FALSE(table.rows[2].values[2].has_value());
 }
 
 // As table_of(): who answers fewer photos is not the best of them, and means over what all answer hold for one set of methods.

@@ -5,6 +5,7 @@
 #include "eval/xml_check.h"
 #include "faceprobe/core/error.h"
 #include "faceprobe/core/random.h"
+#include "faceprobe/eval/paired_column.h"
 #include "faceprobe/io/picture_file.h"
 
 #include <gtest/gtest.h>
@@ -435,6 +436,25 @@ TEST(ScoreReport, TableOfMetrics) {
   EXPECT_EQ(table.rows[0].intervals[0], std::pair(2.0, 2.0));
   EXPECT_EQ(table.better, (std::vector<Better>{Better::kLower, Better::kNeither}));
   EXPECT_TRUE(table.rows[0].ours);
+}
+
+TEST(ScoreReport, TableWithDifferencesToOurs) {
+  const ScoreTable scores = four_photos();
+  const ReportTable plain = table_of(scores, "rmse", "RMSE", 1, {"net"});
+  const ReportTable table = paired_table_of(scores, "rmse", "RMSE", 1, {"net"});
+  ASSERT_EQ(table.columns.size(), plain.columns.size() + 1);
+  EXPECT_EQ(table.columns.back(), kDifferenceColumn);
+  EXPECT_EQ(table.decimals.back(), 1);
+  EXPECT_EQ(table.better.back(), Better::kNeither);
+  EXPECT_EQ(table.rows[0].values.back(), 3);  // of the three photos that both have
+  EXPECT_EQ(table.rows[0].intervals.back(), std::pair(3.0, 3.0));
+  EXPECT_FALSE(table.rows[1].values.back().has_value());  // ours
+  EXPECT_TRUE(has(table.note, "Minus ours"));
+  for (std::size_t i = 0; i < plain.columns.size(); ++i) EXPECT_EQ(table.rows[0].values[i], plain.rows[0].values[i]);
+  EXPECT_TRUE(has(report_markdown({.title = "t", .sections = {{.id = "s", .title = "s", .tables = {table}}}}),
+                  "3.0 [3.0, 3.0] |"));
+  // Where none of ours is in the table there is nothing to compare with.
+  EXPECT_EQ(paired_table_of(scores, "rmse", "RMSE", 1, {"nobody"}), table_of(scores, "rmse", "RMSE", 1, {"nobody"}));
 }
 
 TEST(ScoreReport, TableByGroup) {

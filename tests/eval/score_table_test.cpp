@@ -143,6 +143,67 @@ TEST(ScoreTable, IntervalsDrawPeople) {
   EXPECT_EQ(small_table().known_persons("rmse"), (std::vector<std::string>{"1", "2", "1", "2"}));  // the samples
 }
 
+// Photos differ by tens, methods by one: their intervals overlap, that of the differences knows.
+TEST(ScoreTable, DifferencesArePaired) {
+  ScoreTable table({.seed = 3, .resamples = 400});
+  for (int i = 0; i < 20; ++i) {
+    const std::string sample = std::to_string(i);
+    const std::string person = std::to_string(i / 2);
+    table.add({.method = "net", .sample = sample, .metrics = {{"rmse", 10.0 * i}}, .person = person});
+    // A person's two photos differ alike: 1 for one half of the people, 1.5 for the other.
+    const double more = i < 10 ? 1 : 1.5;
+    table.add({.method = "yang", .sample = sample, .metrics = {{"rmse", 10.0 * i + more}}, .person = person});
+  }
+  EXPECT_LT(table.summary("rmse", {.method = "yang"}).mean_low, table.summary("rmse", {.method = "net"}).mean_high);
+  const Summary d = table.difference("rmse", "net", {.method = "yang"});
+  EXPECT_EQ(d.count, 20U);
+  EXPECT_EQ(d.people, 10U);
+  EXPECT_NEAR(d.mean, 1.25, 1e-12);
+  EXPECT_GT(d.mean_low, 1 - 1e-12);
+  EXPECT_LT(d.mean_high, 1.5 + 1e-12);
+  // Ten people of deviation .25: 1.96 * .25 / sqrt(10) either way, of which there are few values and 400 draws.
+  EXPECT_NEAR(d.mean_high - d.mean_low, 2 * 0.155, 0.08);
+  EXPECT_NEAR(table.difference("rmse", "yang", {.method = "net"}).mean, -1.25, 1e-12);
+  EXPECT_EQ(table.difference("rmse", "net", {.method = "net"}).mean, 0);
+  EXPECT_THROW(table.difference("rmse", "net", {}), std::invalid_argument);
+}
+
+TEST(ScoreTable, DifferencesAreOfWhatBothAnswered) {
+  ScoreTable table = small_table();
+  table.add({.method = "yang", .sample = "3", .groups = {{"skin", "dark"}}, .metrics = {{"rmse", 5}}});
+  const Summary d = table.difference("rmse", "net", {.method = "yang"});
+  EXPECT_EQ(d.count, 1U);  // of sample 1: 4 - 2
+  EXPECT_EQ(d.missing, 2U);
+  EXPECT_EQ(d.mean, 2);
+  EXPECT_EQ(table.difference("rmse", "net", {"yang", "skin", "tan"}).count, 0U);
+  EXPECT_EQ(table.difference("rmse", "nobody", {.method = "yang"}).missing, 3U);
+}
+
+TEST(ScoreTable, TextsTellDifferencesWhereAsked) {
+  ScoreTable table({.seed = 3, .resamples = 50});
+  for (const char* sample : {"1", "2"}) {
+    table.add({.method = "net", .sample = sample, .metrics = {{"rmse", 2}}});
+    table.add({.method = "yang", .sample = sample, .metrics = {{"rmse", 5}}});
+  }
+  const std::string plain = table.markdown("rmse", 1);
+  EXPECT_EQ(plain.find("minus"), std::string::npos);
+  EXPECT_FALSE(nlohmann::json::parse(table.json())["summaries"][0].contains("minus"));
+  table.compare_with("nobody");
+  EXPECT_EQ(table.markdown("rmse", 1), plain);
+  table.compare_with("net");
+  EXPECT_EQ(table.markdown("rmse", 1),
+            "| rmse | n | mean | 95 % of the mean | median | p90 | minus net |\n"
+            "|---|---:|---:|---:|---:|---:|---:|\n"
+            "| net | 2 | 2.0 | [2.0, 2.0] | 2.0 | 2.0 | |\n"
+            "| yang | 2 | 5.0 | [5.0, 5.0] | 5.0 | 5.0 | 3.0 [3.0, 3.0] |\n");
+  const nlohmann::json json = nlohmann::json::parse(table.json());
+  EXPECT_FALSE(json["summaries"][0].contains("minus"));  // its own
+  EXPECT_EQ(json["summaries"][1]["minus"]["method"], "net");
+  EXPECT_EQ(json["summaries"][1]["minus"]["mean"], 3);
+  EXPECT_EQ(json["summaries"][1]["minus"]["mean_95"][1], 3);
+  EXPECT_EQ(json["summaries"][1]["minus"]["people"], 2);
+}
+
 TEST(ScoreTable, TablesTellPeople) {
   const ScoreTable table = three_people();
   EXPECT_NE(table.markdown("rmse", 1).find("| net | 6 of 3 people | 10.5 | ["), std::string::npos);

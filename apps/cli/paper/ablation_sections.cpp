@@ -1,5 +1,6 @@
 #include "ablation_methods.h"
 #include "faceprobe/eval/lit_object.h"
+#include "faceprobe/eval/paired_column.h"
 #include "faceprobe/eval/relight_benchmark.h"
 #include "paper/plan.h"
 
@@ -18,8 +19,8 @@ Sections ablation_sections(const PaperPlan& plan) {
       .text = "The whole estimate with one part changed at a time, on a sphere in the light that was found.",
       .missing =
           "Finetuning, which changes the network of the highlights alone; its rows are printed by bench/people.sh."};
-  section.tables = {table_of(scores.table, "diffuse", "Diffuse sphere, RMSE of 255", 1, ours),
-                    table_of(scores.table, "glossy", "Glossy sphere, RMSE of 255", 1, ours)};
+  section.tables = {paired_table_of(scores.table, "diffuse", "Diffuse sphere, RMSE of 255", 1, ours),
+                    paired_table_of(scores.table, "glossy", "Glossy sphere, RMSE of 255", 1, ours)};
   if (scores.table.metrics().contains("main_light"))
     section.tables.push_back(table_of(scores.table, "main_light", "Main light, degrees", 1, ours));
   section.tables.push_back(

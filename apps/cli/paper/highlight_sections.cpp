@@ -1,3 +1,4 @@
+#include "faceprobe/eval/paired_column.h"
 #include "faceprobe/io/data_files.h"
 #include "highlight_methods.h"
 #include "paper/plan.h"
@@ -56,8 +57,8 @@ eval::ReportSection colour_section(const PaperPlan& plan, const synth::ShardRead
                               .command = "faceprobe eval highlight --data FACES --weights net=models/face.safetensors",
                               .missing = methods.missing};
   const auto higher = eval::Better::kHigher;
-  section.tables = {table_of(scores, "rmse_skin", "RMSE on the face's skin", 2, kOurs),
-                    table_of(scores, "ssim_skin", "SSIM on the face's skin", 3, kOurs, higher),
+  section.tables = {paired_table_of(scores, "rmse_skin", "RMSE on the face's skin", 2, kOurs),
+                    paired_table_of(scores, "ssim_skin", "SSIM on the face's skin", 3, kOurs, higher),
                     table_of(scores, "psnr_skin", "PSNR on the face's skin, dB", 1, kOurs, higher),
                     table_of(scores, "rmse_whole", "RMSE on the whole crop", 2, kOurs),
                     table_of(scores, "ssim_whole", "SSIM on the whole crop", 3, kOurs, higher),
@@ -86,8 +87,8 @@ eval::ReportSection grey_section(const PaperPlan& plan, const synth::ShardReader
               "Three equal channels in, the mean of three out, as the paper has it (its SSIM .891, RMSE 8.13). "
               "Tan, Yang and Shen live by colour and find nothing here, as the black layer; Li expects a highlight of "
               "any skin.",
-          .tables = {table_of(scores, "rmse_skin", "RMSE on the face's skin", 2, kOurs),
-                     table_of(scores, "ssim_skin", "SSIM on the face's skin", 3, kOurs, eval::Better::kHigher),
+          .tables = {paired_table_of(scores, "rmse_skin", "RMSE on the face's skin", 2, kOurs),
+                     paired_table_of(scores, "ssim_skin", "SSIM on the face's skin", 3, kOurs, eval::Better::kHigher),
                      table_of(scores, "rmse_whole", "RMSE on the whole crop", 2, kOurs),
                      table_of(scores, "ssim_whole", "SSIM on the whole crop", 3, kOurs, eval::Better::kHigher)},
           .plots = {histogram_of(scores, "rmse_skin", "Photos by RMSE on the skin", "RMSE, 0-255", kOurs)}};

@@ -1,4 +1,5 @@
 #include "faceprobe/assets/object.h"
+#include "faceprobe/eval/paired_column.h"
 #include "faceprobe/eval/relight_benchmark.h"
 #include "faceprobe/eval/sun_metrics.h"
 #include "paper/derived_tables.h"
@@ -42,7 +43,7 @@ eval::ReportSection object_section(const eval::RelightScores& scores, bool bunny
   std::vector<std::pair<std::string, eval::ReportTable>> by_tone;
   for (const char* metric : {"diffuse", "glossy"}) {
     const std::string name = metric == std::string("diffuse") ? "Diffuse object" : "Glossy object";
-    section.tables.push_back(table_of(table, metric, name, 1, kOurs));
+    section.tables.push_back(paired_table_of(table, metric, name, 1, kOurs));
     if (table.groups().contains("scene"))
       section.tables.push_back(table_by_group(table, metric, "scene", name + " by scene", 1, kOurs));
     by_tone.emplace_back(name, table_by_group(table, metric, "tone", name + " by skin tone", 1, kOurs));

@@ -1,5 +1,7 @@
 #include "faceprobe/eval/earlier_rows.h"
 
+#include "faceprobe/eval/paired_column.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -27,12 +29,13 @@ bool same_value(const std::optional<double>& a, const std::optional<double>& b) 
   return std::abs(*a - *b) <= kSame * std::max(std::abs(*a), std::abs(*b));
 }
 
-// Each column's place in `earlier`, or nothing.
+// Each column's place in `earlier`, or nothing. Differences to ours are those to another version of ours there.
 std::vector<std::optional<std::size_t>> places_in(const ReportTable& table, const ReportTable& earlier) {
   std::vector<std::optional<std::size_t>> places;
   for (const std::string& column : table.columns) {
-    // Such means are over what the rows of one run answered, and hold for no other's.
-    const auto found = is_common_column(column) ? earlier.columns.end() : std::ranges::find(earlier.columns, column);
+    // Such means and differences are over what the rows of one run answered, and hold for no other's.
+    const auto found = is_common_column(column) || column == kDifferenceColumn ? earlier.columns.end()
+                                                                               : std::ranges::find(earlier.columns, column);
     places.push_back(found == earlier.columns.end()
                          ? std::nullopt
                          : std::optional(static_cast<std::size_t>(found - earlier.columns.begin())));
