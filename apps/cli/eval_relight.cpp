@@ -62,6 +62,8 @@ int eval_relight(const EvalOptions& options) {
   print(table, "Colour of all the light, degrees", "colour", 2);
   print_groups(table, "The same by skin tone", "colour", "tone", 2);
   print_groups(table, "Diffuse object by skin tone", "diffuse", "tone", 1);
+  print_groups(table, "Diffuse object by clipped share of the skin", "diffuse", "clipped", 1);
+  print_groups(table, "Diffuse object by the skin's share of the crop", "diffuse", "size", 1);
   print(table, "Diffuse sphere, error after the best scale", "si_diffuse", 3);
   print(table, "Rough metal sphere, the same", "si_matte", 3);
   print(table, "Mirror sphere, the same", "si_mirror", 3);

@@ -12,25 +12,6 @@
 namespace faceprobe::eval {
 namespace {
 
-std::map<std::string, std::string> groups_of(const SyntheticPhoto& photo) {
-  double clipped = 0;
-  double count = 0;
-  for (std::size_t i = 0; i < photo.skin.pixel_count(); ++i) {
-    if (photo.skin.data()[i] == 0) continue;
-    clipped += photo.sample.clip.data()[i] != 0 ? 1 : 0;
-    ++count;
-  }
-  const double share = clipped / count;
-  const double skin = photo.skin_share();
-  return {{"tone", photo.tone()},
-          {"clipped", share < 0.001  ? "none"
-                      : share < 0.05 ? "under 5 %"
-                                     : "5 % and more"},
-          {"size", skin < 0.15   ? "under 15 %"
-                   : skin < 0.25 ? "15 to 25 %"
-                                 : "25 % and more"}};
-}
-
 Image picture_times(const Image& image, float factor) {
   Image out = image;
   for (float& value : out.values()) value *= factor;
@@ -61,7 +42,8 @@ SyntheticPhoto made_grey(SyntheticPhoto photo) {
 
 void add_rows(ScoreTable& table, int number, const SyntheticPhoto& photo, const std::vector<HighlightMethod>& methods,
               const HighlightBenchmark& options) {
-  const std::map<std::string, std::string> groups = groups_of(photo);
+  const std::map<std::string, std::string> groups = {
+      {"tone", photo.tone()}, {"clipped", photo.clipped()}, {"size", photo.size()}};
   const Image& truth = photo.layers.highlight;
   for (const HighlightMethod& method : methods) {
     Image masked = method.highlight(photo.input());
@@ -101,8 +83,8 @@ ScoreTable measure_highlights(const synth::ShardReader& faces, const std::vector
   if (const std::string problem = options.validate(); !problem.empty()) throw Error(ExitCode::kUsage, problem);
   ScoreTable table;
   table.order_labels("tone", tone_names());
-  table.order_labels("clipped", {"none", "under 5 %", "5 % and more"});
-  table.order_labels("size", {"under 15 %", "15 to 25 %", "25 % and more"});
+  table.order_labels("clipped", clipped_names());
+  table.order_labels("size", size_names());
   const std::vector<int> numbers = chosen_by_person(faces, options.samples);
   visit_photos(faces, numbers, options.progress, [&](int number, const SyntheticPhoto& photo) {
     if (options.grey) {

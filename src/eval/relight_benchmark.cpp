@@ -75,6 +75,8 @@ RelightScores measure_relighting(const synth::ShardReader& faces, const std::vec
   RelightScores scores;
   scores.table.order_labels("tone", tone_names());
   scores.table.order_labels("turn", turn_names());
+  scores.table.order_labels("clipped", clipped_names());
+  scores.table.order_labels("size", size_names());
   RelightSheet sheet(object, grid, options.rows, static_cast<int>(methods.size()));
   const std::vector<int> numbers = chosen_by_person(faces, options.samples);
   int visited = 0;
@@ -83,8 +85,11 @@ RelightScores measure_relighting(const synth::ShardReader& faces, const std::vec
     const Eigen::MatrixX3f truth = grid_from_env_map(photo.sample.environment, grid);
     const bool one_lamp = has_dominant_light(truth, grid);
     const std::optional<Sun> sun = one_lamp ? sun_of(truth, grid) : std::nullopt;
-    std::map<std::string, std::string> groups = {
-        {"tone", photo.tone()}, {"turn", photo.turn()}, {"light", one_lamp ? "one lamp" : "several or soft"}};
+    std::map<std::string, std::string> groups = {{"tone", photo.tone()},
+                                                 {"turn", photo.turn()},
+                                                 {"clipped", photo.clipped()},
+                                                 {"size", photo.size()},
+                                                 {"light", one_lamp ? "one lamp" : "several or soft"}};
     if (options.scene) groups["scene"] = options.scene(photo.sample.map);
     const bool drawn = sheet.takes(visited++, static_cast<int>(numbers.size()));
     if (drawn) sheet.begin_row(photo.sample.photo, truth);

@@ -69,6 +69,23 @@ std::string SyntheticPhoto::turn() const {
   return angle < 15 ? "under 15" : angle < 30 ? "15 to 30" : "30 and more";
 }
 
+std::string SyntheticPhoto::clipped() const {
+  double clipped = 0;
+  double count = 0;
+  for (std::size_t i = 0; i < skin.pixel_count(); ++i) {
+    if (skin.data()[i] == 0) continue;
+    clipped += sample.clip.data()[i] != 0 ? 1 : 0;
+    ++count;
+  }
+  const double share = clipped / count;
+  return clipped_names()[share < 0.001 ? 0 : share < 0.05 ? 1 : 2];
+}
+
+std::string SyntheticPhoto::size() const {
+  const double share = skin_share();
+  return size_names()[share < 0.15 ? 0 : share < 0.25 ? 1 : 2];
+}
+
 void visit_photos(const synth::ShardReader& faces, const std::vector<int>& numbers,
                   const std::function<void(int, int)>& progress,
                   const std::function<void(int, const SyntheticPhoto&)>& visit) {
@@ -88,5 +105,9 @@ std::vector<std::string> tone_names() {
 }
 
 std::vector<std::string> turn_names() { return {"under 15", "15 to 30", "30 and more"}; }
+
+std::vector<std::string> clipped_names() { return {"none", "under 5 %", "5 % and more"}; }
+
+std::vector<std::string> size_names() { return {"under 15 %", "15 to 25 %", "25 % and more"}; }
 
 }  // namespace faceprobe::eval

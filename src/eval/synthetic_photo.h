@@ -31,6 +31,10 @@ struct SyntheticPhoto {
   std::string tone() const;
   // How far the head is turned from the camera, either way, in degrees: one of turn_names(), or "unknown" where there is no head.
   std::string turn() const;
+  // The share of that skin whose pixels were clipped: one of clipped_names(). Wants some skin.
+  std::string clipped() const;
+  // skin_share(): one of size_names().
+  std::string size() const;
 
  private:
   ByteImage no_mask_;
@@ -46,5 +50,8 @@ void visit_photos(const synth::ShardReader& faces, const std::vector<int>& numbe
 std::vector<std::string> tone_names();
 // Those of its turns, from the front.
 std::vector<std::string> turn_names();
+// Shares, from none up.
+std::vector<std::string> clipped_names();
+std::vector<std::string> size_names();
 
 }  // namespace faceprobe::eval

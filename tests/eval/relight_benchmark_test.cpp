@@ -52,6 +52,28 @@ TEST(RelightBenchmark, TellsScenesApartWhereTheyAreKnown) {
   EXPECT_TRUE(scores.picture.empty());
 }
 
+TEST(RelightBenchmark, TellsClippedShareAndSizeOfTheSkin) {
+  SmallFaces small;
+  // Three of the ball's 26 rows are over the end.
+  synth::Sample clipped = small.truth;
+  for (int y = 16; y < 19; ++y) {
+    for (int x = 0; x < SmallFaces::kSize; ++x) clipped.clip(x, y) = 7;
+  }
+  const std::filesystem::path data = small.folder / "clipped";
+  const synth::ShardWriter writer(data,
+                                  {.size_px = SmallFaces::kSize, .environment_height = 16, .recipe = R"({"seed":1})"});
+  writer.write(0, std::vector<synth::ViewSamples>{{small.view, {small.truth, clipped}}});
+  writer.finish(1, "");
+  const synth::ShardReader faces(data);
+  const LitObject sphere(sphere_mesh(16), {.size_px = 16});
+  const RelightScores scores = measure_relighting(faces, {ambient_method()}, sphere, {.samples = 2});
+  EXPECT_EQ(scores.table.labels("clipped"), (std::vector<std::string>{"none", "5 % and more"}));
+  // A disc of 13.3 px' radius in 32 x 32.
+  EXPECT_EQ(scores.table.labels("size"), std::vector<std::string>{"25 % and more"});
+  // Both show the same person.
+  EXPECT_EQ(scores.table.summary("diffuse").people, 1U);
+}
+
 TEST(RelightBenchmark, TheMeanLightOfOneLightIsThatLight) {
   const SmallFaces small;
   const synth::ShardReader faces(small.path());

@@ -27,6 +27,10 @@ Sections ablation_sections(const PaperPlan& plan) {
       table_by_group(scores.table, "diffuse", "tone", "Diffuse sphere, RMSE of 255, by skin tone", 1, ours));
   section.tables.push_back(table_by_group(scores.table, "diffuse", "turn",
                                           "Diffuse sphere, RMSE of 255, by turn of the head, degrees", 1, ours));
+  section.tables.push_back(table_by_group(scores.table, "diffuse", "clipped",
+                                          "Diffuse sphere, RMSE of 255, by clipped share of the skin", 1, ours));
+  section.tables.push_back(table_by_group(scores.table, "diffuse", "size",
+                                          "Diffuse sphere, RMSE of 255, by the skin's share of the crop", 1, ours));
   section.plots = {bars_of(scores.table, "diffuse", "Diffuse sphere", "RMSE of 255", ours)};
   return {section};
 }

@@ -62,7 +62,8 @@ struct RelightScores {
 
 // Metrics (light_metrics.h): diffuse, glossy; si_diffuse, si_matte, si_mirror, angle_diffuse, nrmse_mirror and the like of the three spheres;
 // nrmse_map, nrmse_map_truth; main_light and sun_centroid, sun_azimuth, sun_elevation (sun_metrics.h; degrees, of photos whose light is
-// dominant); colour (degrees). Groups: tone, turn (of the head from the camera, degrees), light ("one lamp",
+// dominant); colour (degrees). Groups: tone, turn (of the head from the camera, degrees), clipped (share of the
+// face's skin), size (of the face's skin in the crop), light ("one lamp",
 // "several or soft"), and scene where it is known. Throws Error(kUsage) for options that do not validate.
 RelightScores measure_relighting(const synth::ShardReader& faces, const std::vector<LightMethod>& methods,
                                  const LitObject& object, const RelightBenchmark& options);
