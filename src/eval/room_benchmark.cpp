@@ -87,11 +87,8 @@ void add_lamps(const std::string& method, const std::string& sample, const std::
   int near = 0;
   for (const lighting::Lamp& lamp : found) near += lamp.near ? 1 : 0;
   const int invented = near - matched;
-  table.add({method,
-             sample,
-             {},
-             {{"invented", static_cast<double>(invented)}, {"inventing", invented > 0 ? 1.0 : 0.0}},
-             group});
+  table.add(
+      {method, sample, {}, {{"invented", static_cast<double>(invented)}, {"inventing", invented > 0 ? 1.0 : 0.0}}, group});
 }
 
 }  // namespace

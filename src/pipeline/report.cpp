@@ -114,7 +114,8 @@ constexpr std::string_view kFrame =
 
 Json options_json(const EstimateOptions& options) {
   return {{"separator", options.separator_name()},
-          {"geometry", normals_name(options.classical && options.normals == NormalSource::kNet ? NormalSource::kMesh : options.normals)},
+          {"geometry", normals_name(options.classical && options.normals == NormalSource::kNet ? NormalSource::kMesh
+                                                                                               : options.normals)},
           {"shading", shading_name(options.classical ? ShadingSource::kRegions : options.shading)},
           {"solver", lighting::solver_name(options.solve.solver)},
           {"prior", prior_name(options.asks_prior() ? PriorSource::kNet : PriorSource::kSmooth)},

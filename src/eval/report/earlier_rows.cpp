@@ -34,8 +34,9 @@ std::vector<std::optional<std::size_t>> places_in(const ReportTable& table, cons
   std::vector<std::optional<std::size_t>> places;
   for (const std::string& column : table.columns) {
     // Such means and differences are over what the rows of one run answered, and hold for no other's.
-    const auto found = is_common_column(column) || column == kDifferenceColumn ? earlier.columns.end()
-                                                                               : std::ranges::find(earlier.columns, column);
+    const auto found = is_common_column(column) || column == kDifferenceColumn
+                           ? earlier.columns.end()
+                           : std::ranges::find(earlier.columns, column);
     places.push_back(found == earlier.columns.end()
                          ? std::nullopt
                          : std::optional(static_cast<std::size_t>(found - earlier.columns.begin())));

@@ -6,7 +6,7 @@
 namespace faceprobe::eval {
 namespace {
 
-constexpr const char* kNote =
+constexpr const char* kDifferenceNote =
     "Minus ours: the mean difference to our row, photo by photo, over the photos that both answered. Its interval "
     "draws people, and leaves out 0 "
     "where the two differ by more than chance explains.";
@@ -31,7 +31,7 @@ ReportTable paired_table_of(const ScoreTable& scores, const std::string& metric,
     if (std::isfinite(s.mean)) row.values[column] = s.mean;
     if (std::isfinite(s.mean_low) && std::isfinite(s.mean_high)) row.intervals[column] = {s.mean_low, s.mean_high};
   }
-  table.note = kNote;
+  table.note = kDifferenceNote;
   return table;
 }
 
