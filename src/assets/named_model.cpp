@@ -4,12 +4,33 @@
 #include "faceprobe/render/shapes.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace faceprobe::assets {
 namespace {
 
 bool is_among(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+using Kind = render::MaterialKind;
+
+void change_materials(const render::MaterialChange& change, std::vector<render::Material>& materials) {
+  if (const std::string fault = change.validate(); !fault.empty()) throw Error(ExitCode::kUsage, fault);
+  for (render::Material& material : materials) material = render::changed(std::move(material), change);
+  const auto any_is = [&](Kind one, Kind other) {
+    return std::ranges::any_of(materials, [&](const auto& m) { return m.kind == one || m.kind == other; });
+  };
+  if (change.roughness && !any_is(Kind::kMetal, Kind::kPlastic)) {
+    throw Error(
+        ExitCode::kUsage,
+        "Roughness shows on metal and plastic, and the object is of neither; choose one of these kinds for it.");
+  }
+  if (change.index && !any_is(Kind::kPlastic, Kind::kGlass)) {
+    throw Error(ExitCode::kUsage,
+                "An index of refraction shows in plastic and glass, and the object is of neither; choose one of these "
+                "kinds for it.");
+  }
 }
 
 }  // namespace
@@ -20,7 +41,8 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
-LoadedModel model_named(const std::filesystem::path& object, const std::string& material, const ModelLimits& limits) {
+LoadedModel model_named(const std::filesystem::path& object, const std::string& material,
+                        const render::MaterialChange& change, const ModelLimits& limits) {
   const std::vector<std::string>& shapes = render::shape_names();
   const std::vector<std::string>& presets = render::material_preset_names();
   if (!material.empty() && !is_among(presets, material))
@@ -35,9 +57,11 @@ LoadedModel model_named(const std::filesystem::path& object, const std::string& 
   } else {
     loaded = load_model(object, limits);
   }
-  if (material.empty()) return loaded;
-  loaded.model.materials = {render::material_preset(material)};
-  for (render::TriangleMesh& mesh : loaded.model.meshes) mesh.material = 0;
+  if (!material.empty()) {
+    loaded.model.materials = {render::material_preset(material)};
+    for (render::TriangleMesh& mesh : loaded.model.meshes) mesh.material = 0;
+  }
+  if (!change.empty()) change_materials(change, loaded.model.materials);
   return loaded;
 }
 

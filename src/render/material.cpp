@@ -1,8 +1,12 @@
 #include "faceprobe/render/material.h"
 
+#include "faceprobe/core/color.h"
+
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <stdexcept>
+#include <utility>
 
 namespace faceprobe::render {
 namespace {
@@ -27,6 +31,21 @@ constexpr std::array<Preset, 8> kPresets{{
     {"clay", MaterialKind::kDiffuse, {0.50F, 0.21F, 0.12F}, 0, 1.5F},
     {"red", MaterialKind::kPlastic, {0.60F, 0.03F, 0.02F}, 0.2F, 1.5F},
 }};
+
+constexpr std::array<std::pair<MaterialKind, std::string_view>, 4> kKinds{{
+    {MaterialKind::kDiffuse, "diffuse"},
+    {MaterialKind::kMetal, "metal"},
+    {MaterialKind::kPlastic, "plastic"},
+    {MaterialKind::kGlass, "glass"},
+}};
+
+// The whole of a text as a number.
+template <class Number, class... Format>
+bool reads(std::string_view text, Number& number, Format... format) {
+  const char* const end = text.data() + text.size();
+  const auto [rest, problem] = std::from_chars(text.data(), end, number, format...);
+  return problem == std::errc() && rest == end;
+}
 
 // Not so for NaN either.
 bool within(float value, float low, float high) { return value >= low && value <= high; }
@@ -70,6 +89,62 @@ const std::vector<std::string>& material_preset_names() {
     return list;
   }();
   return names;
+}
+
+std::string name_of(MaterialKind kind) {
+  const auto* const found = std::find_if(kKinds.begin(), kKinds.end(), [&](const auto& k) { return k.first == kind; });
+  if (found == kKinds.end()) throw std::invalid_argument("This is no kind of material.");
+  return std::string(found->second);
+}
+
+MaterialKind material_kind(std::string_view name) {
+  const auto* const found = std::find_if(kKinds.begin(), kKinds.end(), [&](const auto& k) { return k.second == name; });
+  if (found == kKinds.end()) throw std::invalid_argument("There is no kind of material '" + std::string(name) + "'.");
+  return found->first;
+}
+
+const std::vector<std::string>& material_kind_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> list;
+    list.reserve(kKinds.size());
+    for (const auto& kind : kKinds) list.emplace_back(kind.second);
+    return list;
+  }();
+  return names;
+}
+
+bool MaterialChange::empty() const { return !kind && !colour && !roughness && !index; }
+
+std::string MaterialChange::validate() const { return changed({}, *this).validate(); }
+
+Material changed(Material material, const MaterialChange& change) {
+  material.kind = change.kind.value_or(material.kind);
+  material.roughness = change.roughness.value_or(material.roughness);
+  material.index = change.index.value_or(material.index);
+  if (change.colour) {
+    material.colour = *change.colour;
+    material.texture = {};
+  }
+  return material;
+}
+
+std::optional<Eigen::Vector3f> colour_from(std::string_view text) {
+  Eigen::Vector3f colour;
+  if (text.starts_with('#')) {
+    if (text.size() != 7) return std::nullopt;
+    for (int c = 0; c < 3; ++c) {
+      unsigned byte = 0;
+      if (!reads(text.substr(1 + 2 * static_cast<std::size_t>(c), 2), byte, 16)) return std::nullopt;
+      colour[c] = linear_from_srgb(static_cast<float>(byte) / 255);
+    }
+    return colour;
+  }
+  for (int c = 0; c < 3; ++c) {
+    const std::size_t comma = text.find(',');
+    if ((comma == std::string_view::npos) != (c == 2) || !reads(text.substr(0, comma), colour[c])) return std::nullopt;
+    if (c < 2) text.remove_prefix(comma + 1);
+  }
+  return colour;
 }
 
 }  // namespace faceprobe::render

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace faceprobe::render {
 namespace {
 
@@ -63,6 +65,30 @@ TEST(PathTracer, WhiteFurnace) {
     EXPECT_NEAR(sum / coverage, 0.7, 0.005 * 0.7) << material.name;
     EXPECT_NEAR(light_of(layers.object, 32, 32).x(), 0.7F, 0.02F * 0.7F) << material.name;  // noise of one pixel
   }
+}
+
+TEST(PathTracer, AChangedColourIsSeen) {
+  const Material red = changed(material_preset("diffuse"), {.colour = colour_from("#ff0000")});
+  const Layers layers = PathTracer(ball(red), even_map(1), {.view = kView}).render({.samples = 64});
+  EXPECT_NEAR(light_of(layers.object, 32, 32).x(), 1, 0.02);  // noise of one pixel
+  EXPECT_EQ(light_of(layers.object, 32, 32).y(), 0);
+  EXPECT_EQ(light_of(layers.object, 32, 32).z(), 0);
+}
+
+TEST(PathTracer, AChangedRoughnessWidensTheHighlight) {
+  Eigen::Vector3f towards = Eigen::Vector3f(0.3F, 0.4F, 0.8F).normalized();
+  const EnvMap map = one_light(towards);
+  const auto peak = [&](float roughness) {
+    const Material metal = changed(material_preset("silver"), {.roughness = roughness});
+    const Layers layers = PathTracer(ball(metal), map, {.view = kView}).render({.samples = 256});
+    float brightest = 0;
+    for (int y = 0; y < 64; ++y) {
+      for (int x = 0; x < 64; ++x) brightest = std::max(brightest, layers.object(x, y, 0));
+    }
+    return brightest;
+  };
+  // A lobe's peak falls with the fourth power of roughness, here by 1300; a pixel of 10 degrees of the mirrored room sees less of that.
+  EXPECT_GT(peak(0.1F), 4 * peak(0.6F));
 }
 
 TEST(PathTracer, FurnaceWithGroundLosesWhatTheGroundTakes) {

@@ -7,6 +7,7 @@
 #include "faceprobe/core/image.h"
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,5 +40,29 @@ inline constexpr float kSmooth = 0.03F;  // roughness
 // "red". Throws std::invalid_argument for other names.
 Material material_preset(std::string_view name);
 const std::vector<std::string>& material_preset_names();
+
+// "diffuse", "metal", "plastic", "glass". material_kind() throws std::invalid_argument for other names.
+std::string name_of(MaterialKind kind);
+MaterialKind material_kind(std::string_view name);
+const std::vector<std::string>& material_kind_names();
+
+// What is to be other than a material has it; what is unset stays.
+//
+//   const Material copper = changed(material_preset("gold"), {.colour = colour_from("#f4a080")});
+struct MaterialChange {
+  std::optional<MaterialKind> kind{};
+  std::optional<Eigen::Vector3f> colour{};  // linear; in place of a texture, too
+  std::optional<float> roughness{};
+  std::optional<float> index{};
+
+  bool empty() const;
+  // Empty when usable, else what Material::validate() says of a material that has these.
+  std::string validate() const;
+};
+Material changed(Material material, const MaterialChange& change);
+
+// Linear colour of "#c02010", which is sRGB as on web pages, or of "0.5,0.02,0.01", which is linear already and may be out of range. Nothing
+// for other texts.
+std::optional<Eigen::Vector3f> colour_from(std::string_view text);
 
 }  // namespace faceprobe::render
