@@ -3,23 +3,58 @@
 #include "faceprobe/core/angles.h"
 #include "faceprobe/core/error.h"
 #include "faceprobe/core/sphere_grid.h"
+#include "pipeline/dimmed_lights.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 namespace faceprobe::pipeline {
+namespace {
+
+constexpr int kMostLights = 5;
+
+// Of the main lights in their order. Throws std::out_of_range for lights that do not validate.
+std::vector<double> shares_of(const std::vector<DimmedLight>& dim) {
+  std::vector<double> shares(kMostLights, 0.0);
+  for (const DimmedLight& dimmed : dim) shares.at(static_cast<std::size_t>(dimmed.light - 1)) = dimmed.share;
+  while (!shares.empty() && shares.back() == 0) shares.pop_back();  // each costs a search for lights
+  return shares;
+}
+
+}  // namespace
 
 std::string LightChange::validate() const {
-  constexpr int kMostLights = 5;
   constexpr double kMostStops = 30;
   const bool has_map = map.width() > 0;
-  if (dim < 0 || dim > kMostLights) return "dim must be from 0 to 5 lights, found " + std::to_string(dim) + ".";
+  for (auto dimmed = dim.begin(); dimmed != dim.end(); ++dimmed) {
+    const std::string number = std::to_string(dimmed->light);
+    if (dimmed->light < 1 || dimmed->light > kMostLights)
+      return "Lights to dim are numbered from 1, the strongest, to 5; found " + number + ".";
+    if (!(dimmed->share > 0 && dimmed->share <= 1))
+      return "The share of light " + number + " that goes must be above 0 and at most 1, found " +
+             std::to_string(dimmed->share) + ".";
+    if (std::any_of(dim.begin(), dimmed, [&](const DimmedLight& other) { return other.light == dimmed->light; }))
+      return "Light " + number + " is dimmed twice; name it once.";
+  }
   if (!std::isfinite(turn_deg)) return "turn must be a number of degrees.";
   if (!(std::abs(exposure) <= kMostStops))
     return "exposure must be from -30 to 30 stops, found " + std::to_string(exposure) + ".";
-  if (!has_map && dim == 0 && turn_deg == 0 && exposure == 0)
+  if (!has_map && dim.empty() && turn_deg == 0 && exposure == 0)
     return "The light would stay as it is; give a map, lights to dim, a turn or an exposure.";
-  if (has_map && dim > 0) return "dim is for the photo's own lights; leave it or the map out.";
+  if (has_map && !dim.empty()) return "dim is for the photo's own lights; leave it or the map out.";
+  return {};
+}
+
+std::string LightChange::fault_of(const Estimate& estimate) const {
+  if (std::string fault = validate(); !fault.empty()) return fault;
+  std::size_t most = 0;
+  for (const FaceEstimate& face : estimate.faces) most = std::max(most, face.lights.size());
+  for (const DimmedLight& dimmed : dim) {
+    if (static_cast<std::size_t>(dimmed.light) > most)
+      return "The photo's faces have " + std::to_string(most) + " main lights at most, and light " +
+             std::to_string(dimmed.light) + " cannot be dimmed; report.json of `faceprobe estimate` lists them.";
+  }
   return {};
 }
 
@@ -28,8 +63,8 @@ Eigen::MatrixX3f changed_light(const FaceEstimate& face, const LightChange& chan
   const lighting::Light& own = face.light;
   const SphereGrid grid = SphereGrid::of_cells(own.radiance.rows());
   Eigen::MatrixX3f light = own.radiance;
-  if (change.dim > 0)
-    light = lighting::without_main_lights(light, grid, change.dim, options.main_lights, own.confidence);
+  if (!change.dim.empty())
+    light = dimmed_lights(light, grid, shares_of(change.dim), options.main_lights, own.confidence);
   if (change.map.width() > 0) {
     // A map has no unit that a photo shares: it gets the energy of the light that it replaces.
     const double energy = own.radiance.cast<double>().sum() * grid.cell_solid_angle();

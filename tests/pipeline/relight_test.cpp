@@ -1,10 +1,16 @@
 #include "faceprobe/pipeline/relight.h"
 
+#include "faceprobe/core/color.h"
 #include "faceprobe/core/error.h"
 #include "faceprobe/core/sphere_grid.h"
 #include "portrait.h"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <vector>
 
 namespace faceprobe::pipeline {
 namespace {
@@ -62,7 +68,7 @@ TEST_F(Relight, TheUsualWishesChangeTheLightAsTheySay) {
   const EstimateOptions options;
   const Eigen::MatrixX3f& own = face.light.radiance;
   EXPECT_TRUE(changed_light(face, {.map = {}, .exposure = 1}, options).isApprox(2 * own));
-  const Eigen::MatrixX3f dimmed = changed_light(face, {.map = {}, .dim = 1}, options);
+  const Eigen::MatrixX3f dimmed = changed_light(face, {.map = {}, .dim = {{.light = 1}}}, options);
   EXPECT_LT(dimmed.sum(), own.sum());
   EXPECT_TRUE((dimmed.array() <= own.array() + 1e-6F).all());
   // What is in front goes to the right.
@@ -75,10 +81,69 @@ TEST_F(Relight, TheUsualWishesChangeTheLightAsTheySay) {
   EXPECT_GT(grid.direction(static_cast<int>(brightest)).x(), 0.95F);
   EXPECT_NEAR(turned.sum() / own.sum(), 1, 0.02);  // as strong; the turn resamples
   EXPECT_NE(LightChange{}.validate(), "");
-  EXPECT_NE((LightChange{.map = front, .dim = 1}).validate(), "");
+  EXPECT_NE((LightChange{.map = front, .dim = {{.light = 1}}}).validate(), "");
   EXPECT_THROW(changed_light(face, {.map = EnvMap(8, 4)}, options), Error);
   EXPECT_NE((LightChange{.map = {}, .exposure = 99}).validate(), "");
   EXPECT_EQ((LightChange{.map = {}, .turn_deg = -20}).validate(), "");
+}
+
+// Two lights of 8 degrees, the second weaker, in an even surround.
+FaceEstimate under_two_lights() {
+  FaceEstimate face;
+  const SphereGrid grid(16);
+  face.light.radiance = Eigen::MatrixX3f::Constant(grid.cell_count(), 3, 0.1F);
+  face.light.confidence = Eigen::VectorXf::Ones(grid.cell_count());
+  const Eigen::Vector3f right = Eigen::Vector3f(0.8F, 0.3F, 0.5F).normalized();
+  const Eigen::Vector3f left = Eigen::Vector3f(-0.8F, 0.3F, 0.5F).normalized();
+  for (int j = 0; j < grid.cell_count(); ++j) {
+    if (grid.direction(j).dot(right) > 0.99F) face.light.radiance.row(j) = Eigen::RowVector3f(20, 16, 12);
+    if (grid.direction(j).dot(left) > 0.99F) face.light.radiance.row(j) = Eigen::RowVector3f(6, 8, 10);
+  }
+  face.lights = lighting::main_lights(face.light.radiance, grid, {}, face.light.confidence);
+  return face;
+}
+
+TEST(LightChange, TakesOfEachLightTheShareThatIsNamed) {
+  const FaceEstimate face = under_two_lights();
+  ASSERT_EQ(face.lights.size(), 2U);
+  ASSERT_LT(face.lights[1].direction.x(), 0);
+  const SphereGrid grid(16);
+  const Eigen::MatrixX3f& own = face.light.radiance;
+  const std::vector<std::vector<DimmedLight>> changes = {{{.light = 2, .share = 1}},
+                                                         {{.light = 2, .share = 0.25}},
+                                                         {{.light = 1, .share = 0.5}},
+                                                         {{.light = 2, .share = 0.75}, {.light = 1, .share = 0.125}}};
+  for (const std::vector<DimmedLight>& dim : changes) {
+    const Eigen::MatrixX3f rest = changed_light(face, {.map = {}, .dim = dim}, EstimateOptions());
+    double wanted = 0;
+    for (const DimmedLight& dimmed : dim)
+      wanted += dimmed.share * face.lights[static_cast<std::size_t>(dimmed.light - 1)].irradiance;
+    const double gone = ((own - rest) * kLuminanceWeights).cast<double>().sum() * grid.cell_solid_angle();
+    EXPECT_NEAR(gone, wanted, 1e-4 * wanted);  // sums of floats
+    for (int j = 0; j < grid.cell_count(); ++j) {
+      const bool at_right = grid.direction(j).x() > 0;
+      const bool touched =
+          std::ranges::any_of(dim, [&](const DimmedLight& dimmed) { return (dimmed.light == 1) == at_right; });
+      if (!touched) {
+        ASSERT_EQ(rest.row(j), own.row(j)) << j;
+      }
+    }
+  }
+}
+
+TEST(LightChange, SaysWhichLightItCannotDim) {
+  const auto fault = [](const std::vector<DimmedLight>& dim) { return LightChange{.map = {}, .dim = dim}.validate(); };
+  EXPECT_EQ(fault({{.light = 5}, {.light = 1, .share = 0.5}}), "");
+  EXPECT_NE(fault({{.light = 0}}).find("from 1"), std::string::npos);
+  EXPECT_NE(fault({{.light = 6}}).find("found 6"), std::string::npos);
+  EXPECT_NE(fault({{.light = 2}, {.light = 2, .share = 0.5}}).find("twice"), std::string::npos);
+  for (const double share : {0.0, -1.0, 1.5, std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_NE(fault({{.light = 2, .share = share}}).find("share of light 2"), std::string::npos) << share;
+  Estimate estimate;
+  estimate.faces.push_back(under_two_lights());
+  EXPECT_EQ((LightChange{.map = {}, .dim = {{.light = 2}}}.fault_of(estimate)), "");
+  const std::string missing = LightChange{.map = {}, .dim = {{.light = 3}}}.fault_of(estimate);
+  EXPECT_NE(missing.find("2 main lights at most"), std::string::npos) << missing;
 }
 
 TEST_F(Relight, RefusesWhatDoesNotFit) {

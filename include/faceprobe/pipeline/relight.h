@@ -12,6 +12,9 @@
 
 #include "faceprobe/pipeline/estimate.h"
 
+#include <string>
+#include <vector>
+
 namespace faceprobe::pipeline {
 
 struct RelightOptions {
@@ -22,15 +25,23 @@ struct RelightOptions {
   std::string validate() const;
 };
 
+// One of a face's main lights, less bright.
+struct DimmedLight {
+  int light = 1;     // from 1 on, strongest first, as report.json lists them
+  double share = 1;  // of it that goes: 1 puts it out
+};
+
 // The usual wishes.
 struct LightChange {
-  EnvMap map{};         // lights the faces instead, as strong as their own light; empty = their own
-  int dim = 0;          // so many of the photo's main lights are put out, the strongest first; not with a map
-  double turn_deg = 0;  // of the light about the vertical, to the right seen from above the photo
-  double exposure = 0;  // stops
+  EnvMap map{};                    // lights the faces instead, as strong as their own light; empty = their own
+  std::vector<DimmedLight> dim{};  // each light once; not with a map. Faces without that light stay as they are
+  double turn_deg = 0;             // of the light about the vertical, to the right seen from above the photo
+  double exposure = 0;             // stops
 
   // Empty when usable, else a sentence that says which value is wrong; a change that changes nothing is wrong too.
   std::string validate() const;
+  // The same for a photo: lights that none of its faces has cannot be dimmed.
+  std::string fault_of(const Estimate& estimate) const;
 };
 // A face's light so changed, on the cells of its own. `options`: those of the estimate. Throws Error(kInput) for a map without light.
 Eigen::MatrixX3f changed_light(const FaceEstimate& face, const LightChange& change, const EstimateOptions& options);

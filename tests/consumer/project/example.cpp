@@ -26,7 +26,7 @@ int main(int argc, char** argv) {
 
     // The face without its strongest lamp.
     Image dimmed = photo.linear;
-    pipeline::relight(dimmed, face, pipeline::changed_light(face, {.dim = 1}, estimator.options()));
+    pipeline::relight(dimmed, face, pipeline::changed_light(face, {.dim = {{.light = 1}}}, estimator.options()));
     io::write_picture("dimmed.png", dimmed);
   } catch (const Error& error) {
     std::fprintf(stderr, "%s\n", error.what());
