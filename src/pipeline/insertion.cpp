@@ -3,10 +3,8 @@
 #include "faceprobe/core/angles.h"
 #include "faceprobe/core/color.h"
 #include "faceprobe/core/error.h"
-#include "faceprobe/core/sphere_grid.h"
 #include "faceprobe/insert/spot.h"
-#include "faceprobe/lighting/main_lights.h"
-#include "faceprobe/pipeline/room.h"
+#include "pipeline/insertion_light.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,57 +19,12 @@ constexpr double kBottom = 0.93;
 constexpr double kSize = 0.35;       // of its longer side, of the picture's shorter one
 constexpr float kFlatShare = 1e-4F;  // of a model's longest side: what is lower has no height to speak of
 constexpr float kNearer = 0.75F;
-constexpr double kFarPx = 1e6;         // beyond any picture, and within what floats bear
-constexpr float kLampRadiusM = 0.04F;  // a bulb with its shade: triangulation does not tell
+constexpr double kFarPx = 1e6;  // beyond any picture, and within what floats bear
+constexpr float kFarM = 100;    // beside somebody: further away it is beside nobody
 
 float depth_of(const FaceEstimate& face) { return static_cast<float>(-face.face.position_m().z()); }
 
 const FaceEstimate& largest_face(const Estimate& estimate) { return estimate.faces[estimate.largest]; }
-
-const FaceEstimate& nearest_face(const Estimate& estimate, const Eigen::Vector3f& foot, std::size_t& index) {
-  const auto distance = [&](const FaceEstimate& face) { return (face.face.position_m().cast<float>() - foot).norm(); };
-  const auto nearest = std::min_element(estimate.faces.begin(), estimate.faces.end(),
-                                        [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
-  index = static_cast<std::size_t>(nearest - estimate.faces.begin());
-  return *nearest;
-}
-
-// The face's map; and if its strongest lights are lamps whose places are known, these beside a map that is without them.
-void light_scene(const Estimate& estimate, const Eigen::Vector3f& foot, const InsertionOptions& options,
-                 insert::Scene& scene) {
-  if (options.joint_light && estimate.joint) {
-    scene.environment = estimate.joint->environment;
-    return;
-  }
-  std::size_t index = 0;
-  const FaceEstimate& face = options.face ? estimate.faces[index = static_cast<std::size_t>(*options.face)]
-                                          : nearest_face(estimate, foot, index);
-  scene.environment = face.environment;
-  if (estimate.faces.size() < 2) return;
-  const Room room = find_lamps(estimate);
-  std::vector<const lighting::Lamp*> of_light(face.lights.size(), nullptr);
-  for (const lighting::Lamp& lamp : room.lamps) {
-    for (const lighting::Sighting& seen : lamp.seen) {
-      if (lamp.near && seen.face == static_cast<int>(index)) of_light[static_cast<std::size_t>(seen.light)] = &lamp;
-    }
-  }
-  const auto end = std::find(of_light.begin(), of_light.end(), nullptr);
-  const int count = static_cast<int>(end - of_light.begin());
-  if (count == 0) return;
-  const SphereGrid grid = SphereGrid::of_cells(face.light.radiance.rows());
-  const Eigen::MatrixX3f rest =
-      lighting::without_main_lights(face.light.radiance, grid, count, options.main_lights, face.light.confidence);
-  scene.environment = env_map_from_grid(rest, grid, face.environment.width(), face.environment.height());
-  for (int k = 0; k < count; ++k) {
-    // As strong as this face sees it, not as all do on average: what is taken off the map comes back whole.
-    const lighting::MainLight& light = face.lights[static_cast<std::size_t>(k)];
-    const Eigen::Vector3d& place = of_light[static_cast<std::size_t>(k)]->position_m;
-    const double squared = (place - room.faces[index].position_m).squaredNorm();
-    scene.lamps.push_back({.position = place.cast<float>(),
-                           .radius_m = kLampRadiusM,
-                           .intensity = (light.irradiance * squared * light.colour).cast<float>()});
-  }
-}
 
 // What the faces' crops show of people: all that is not background.
 insert::Matte matte_of(const Estimate& estimate, const Image& given) {
@@ -109,6 +62,9 @@ insert::Matte matte_of(const Estimate& estimate, const Image& given) {
 std::string InsertionOptions::validate() const {
   if (at_px && !(at_px->array().abs() <= kFarPx).all())
     return "The place in the photo must be two numbers of pixels, none above a million.";
+  if (beside_m && !(std::abs(*beside_m) <= kFarM))
+    return "The distance beside the face must be from -100 to 100 metres, found " + std::to_string(*beside_m) + ".";
+  if (beside_m && at_px) return "The place is told twice, in pixels and beside the face; leave one of them out.";
   if (depth_m && !(*depth_m > 0.05F && *depth_m < 1000))
     return "The distance must be from .05 to 1000 metres, found " + std::to_string(*depth_m) + ".";
   if (height_m && !(*height_m > 1e-4F && *height_m < 1000))
@@ -142,7 +98,10 @@ Eigen::Vector3f up_in(const Estimate& estimate, const InsertionOptions& options)
 
 Spot spot_for(const Estimate& estimate, const render::Model& model, const InsertionOptions& options) {
   const render::PinholeView view = view_of(estimate);
-  const float depth_m = options.depth_m.value_or(kNearer * depth_of(largest_face(estimate)));
+  const FaceEstimate& person =
+      options.face ? estimate.faces.at(static_cast<std::size_t>(*options.face)) : largest_face(estimate);
+  const float depth_unless_told = options.beside_m ? depth_of(person) : kNearer * depth_of(largest_face(estimate));
+  const float depth_m = options.depth_m.value_or(depth_unless_told);
   const Eigen::Vector3f size = model.box().sizes();
   const double across_per_height = std::hypot(size.x(), size.z()) / std::max(1e-9F, size.y());
   const double px_per_m = view.focal_px / static_cast<double>(depth_m);
@@ -155,9 +114,12 @@ Spot spot_for(const Estimate& estimate, const render::Model& model, const Insert
   const face::Box& box = largest_face(estimate).face.box;
   const bool more_room_right = box.x + 0.5F * box.width < 0.5F * static_cast<float>(view.width_px);
   const double edge_px = more_room_right ? (1 - kSideMargin) * view.width_px : kSideMargin * view.width_px;
-  const Eigen::Vector2d unless_told(
+  Eigen::Vector2d unless_told(
       view.centre_x_px + front * (edge_px - view.centre_x_px) + (more_room_right ? -radius_px : radius_px),
       view.centre_y_px + front * (kBottom * view.height_px - view.centre_y_px));
+  if (options.beside_m)
+    unless_told.x() =
+        view.centre_x_px + (person.face.position_m().x() + static_cast<double>(*options.beside_m)) * px_per_m;
   return {options.at_px.value_or(unless_told), depth_m, static_cast<float>(height_m)};
 }
 

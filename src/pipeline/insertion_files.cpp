@@ -79,6 +79,7 @@ std::vector<std::filesystem::path> write_insertion(const std::filesystem::path& 
   };
   const Image model = whole(done.layers.object, done, 0);
   write("composite.png", done.picture);
+  write("composite.exr", done.picture);
   write("object.png", straight(model));
   write("object.exr", model);
   write("shadow.exr", whole(done.layers.shadow, done, 1));

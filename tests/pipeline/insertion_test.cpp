@@ -1,13 +1,10 @@
 #include "faceprobe/pipeline/insertion.h"
 
 #include "faceprobe/core/angles.h"
-#include "faceprobe/core/color.h"
-#include "faceprobe/core/sphere_grid.h"
-#include "faceprobe/core/vertex_normals.h"
 #include "faceprobe/io/picture_file.h"
 #include "faceprobe/pipeline/insertion_files.h"
 #include "faceprobe/render/shapes.h"
-#include "pipeline/portrait.h"
+#include "pipeline/placed_things.h"
 #include "support/expect_error.h"
 
 #include <gtest/gtest.h>
@@ -22,46 +19,14 @@ namespace {
 
 using faceprobe::testing::expect_error;
 using faceprobe::testing::TempFolder;
-
-constexpr float kDepthM = 0.8F;  // of the face that only_face() has
-
-EnvMap even_map(float value) { return EnvMap(Image(32, 16, 3, value)); }
-
-FaceEstimate face_at(const Eigen::Vector3d& place_m, float box_x, float box_width) {
-  FaceEstimate face;
-  face.face.camera_from_face.translation() = place_m;
-  face.face.box = {box_x, 100, box_width, 1.2F * box_width};
-  face.environment = even_map(1);
-  return face;
-}
-
-// One upright face whose box begins there.
-Estimate only_face(float box_x, int width = 640, int height = 480) {
-  Estimate estimate;
-  estimate.photo_width = width;
-  estimate.photo_height = height;
-  estimate.camera = {800, 0.5 * width, 0.5 * height};
-  estimate.faces.push_back(face_at({0, 0, -kDepthM}, box_x, 120));
-  return estimate;
-}
-
-io::Photo photo_of(const Estimate& estimate) { return testing::blank(estimate.photo_width, estimate.photo_height); }
-
-// Vertices 0 to 3: foot, crown, front and right. 4 and 5 keep the box even about the foot.
-render::Model marker() {
-  render::TriangleMesh mesh;
-  mesh.vertices.resize(6, 3);
-  mesh.vertices << 0, 0, 0, 0, 2, 0, 0, 0, 1, 1, 0, 0, 0, 0, -1, -1, 0, 0;
-  mesh.triangles.resize(4, 3);
-  mesh.triangles << 1, 2, 3, 1, 3, 4, 1, 4, 5, 1, 5, 2;
-  mesh.normals = vertex_normals(mesh.vertices, mesh.triangles);
-  return {{mesh}, {render::material_preset("diffuse")}};
-}
-Eigen::Vector3f vertex(const insert::Scene& scene, int i) { return scene.model.meshes[0].vertices.row(i).transpose(); }
-
-Eigen::Vector2d pixel_of(const render::PinholeView& view, const Eigen::Vector3f& point) {
-  return face::Camera{view.focal_px, view.centre_x_px, view.centre_y_px}.project(point.cast<double>());
-}
+using testing::even_map;
+using testing::face_at;
+using testing::kDepthM;
+using testing::marker;
+using testing::only_face;
+using testing::photo_of;
+using testing::pixel_of;
+using testing::vertex;
 
 // What the model covers of the picture.
 Eigen::AlignedBox2d seen_box(const insert::Scene& scene) {
@@ -129,6 +94,34 @@ TEST(Insertion, StandsWhereItIsTold) {
     EXPECT_NEAR(-vertex(scene, 0).z(), 1.5F, 1e-6F);  // one rounding
     EXPECT_NEAR((vertex(scene, 1) - vertex(scene, 0) - Eigen::Vector3f(0, 0.3F, 0)).norm(), 0, 1e-6F);
   }
+}
+
+TEST(Insertion, StandsBesideTheFaceByMetres) {
+  Estimate estimate = only_face(40);
+  estimate.faces[0].face.camera_from_face.translation() = Eigen::Vector3d(0.05, 0.1, -kDepthM);
+  estimate.faces.push_back(face_at({-0.1, 0, -1.6}, 200, 60));
+  const auto foot_of = [&](const InsertionOptions& options) {
+    const insert::Scene scene = scene_for(photo_of(estimate), estimate, marker(), options);
+    const Eigen::Vector2d seen = pixel_of(scene.view, vertex(scene, 0));
+    EXPECT_GT(seen.y(), 0.6 * 480);
+    EXPECT_LT(seen.y(), 480);
+    return vertex(scene, 0);
+  };
+  for (const float beside : {0.2F, 0.0F, -0.3F}) {
+    const Eigen::Vector3f foot = foot_of({.beside_m = beside});
+    EXPECT_NEAR(foot.x(), 0.05F + beside, 1e-5F);  // floats, by way of pixels
+    EXPECT_NEAR(foot.z(), -kDepthM, 1e-6F);
+    // In front of it or behind it, as far to its side.
+    const Eigen::Vector3f nearer = foot_of({.beside_m = beside, .depth_m = 0.5F});
+    EXPECT_NEAR(nearer.x(), 0.05F + beside, 1e-5F);
+    EXPECT_NEAR(nearer.z(), -0.5F, 1e-6F);
+    const Eigen::Vector3f other = foot_of({.beside_m = beside, .face = 1});
+    EXPECT_NEAR(other.x(), -0.1F + beside, 1e-5F);
+    EXPECT_NEAR(other.z(), -1.6F, 1e-6F);
+  }
+  // Where that is in the photo: 800 px / .8 m, from the middle at 320.
+  const insert::Scene scene = scene_for(photo_of(estimate), estimate, marker(), {.beside_m = 0.2F});
+  EXPECT_NEAR(pixel_of(scene.view, vertex(scene, 0)).x(), 320 + 800 * 0.25 / 0.8, 0.01);
 }
 
 TEST(Insertion, TurnsItsFrontToTheRightOfThePhoto) {
@@ -271,102 +264,6 @@ TEST(Insertion, TheNearestFacesMapIsTaken) {
   EXPECT_EQ(value({320, 240}, 1), 2);  // .3 m from the one, .64 from the other
 }
 
-double luminance_of(const Eigen::Vector3d& rgb) { return rgb.dot(luminance_weights<double>()); }
-
-// The map of a face under a reddish patch of light there, as strong as a lamp of that intensity, and an even surround.
-void light_face(FaceEstimate& face, const Eigen::Vector3d& towards, double irradiance) {
-  const SphereGrid grid(16);
-  face.light.radiance = Eigen::MatrixX3f::Constant(grid.cell_count(), 3, 0.1F);
-  std::vector<int> cells;
-  for (int j = 0; j < grid.cell_count(); ++j) {
-    if (grid.direction(j).cast<double>().dot(towards.normalized()) > std::cos(radians(8.0))) cells.push_back(j);
-  }
-  const Eigen::Vector3d reddish(1.6, 0.9, 0.6);
-  const double each = irradiance / (static_cast<double>(cells.size()) * grid.cell_solid_angle() * luminance_of(reddish));
-  for (const int j : cells) face.light.radiance.row(j) += (each * reddish).transpose().cast<float>();
-  face.light.confidence = Eigen::VectorXf::Ones(grid.cell_count());
-  face.environment = env_map_from_grid(face.light.radiance, grid, 128, 64);
-  face.lights = lighting::main_lights(face.light.radiance, grid, {}, face.light.confidence);
-}
-
-Estimate under_one_lamp(const Eigen::Vector3d& lamp_m) {
-  Estimate estimate = only_face(100);
-  estimate.faces = {face_at({-0.6, 0, -2}, 80, 60), face_at({0.7, 0.1, -2.2}, 500, 55)};
-  double intensity = 6;
-  for (FaceEstimate& face : estimate.faces) {
-    const Eigen::Vector3d way = lamp_m - face.face.position_m();
-    light_face(face, way, intensity / way.squaredNorm());
-    intensity *= 1.3;  // the second skin is darker than it is taken to be
-  }
-  return estimate;
-}
-
-TEST(Insertion, TheLightIsWhoseItIsToldToBe) {
-  Estimate estimate = only_face(60);
-  estimate.faces.push_back(face_at({0.5, 0, -kDepthM}, 400, 120));
-  estimate.faces[0].environment = even_map(1);
-  estimate.faces[1].environment = even_map(2);
-  estimate.joint.emplace();
-  estimate.joint->environment = even_map(3);
-  const auto level = [&](const InsertionOptions& options) {
-    return scene_for(photo_of(estimate), estimate, marker(), options).environment.radiance()(0, 0, 0);
-  };
-  EXPECT_EQ(level({.face = 0}), 1.0F);
-  EXPECT_EQ(level({.face = 1}), 2.0F);
-  EXPECT_EQ(level({.face = 1, .joint_light = true}), 3.0F);
-  expect_error(ExitCode::kUsage, {"0 to 1"}, [&] { level({.face = 2}); });
-}
-
-TEST(Insertion, ANearLampIsPutWhereItStandsAndTakenOutOfTheMap) {
-  const Eigen::Vector3d lamp_m(0.2, 0.9, -0.9);
-  const Estimate estimate = under_one_lamp(lamp_m);
-  for (const std::size_t i : {0U, 1U}) {
-    const FaceEstimate& face = estimate.faces[i];
-    const Eigen::Vector3f foot = face.face.position_m().cast<float>() - Eigen::Vector3f(0, 0.3F, 0);
-    const insert::Scene scene =
-        scene_for(photo_of(estimate), estimate, marker(),
-                  {.at_px = pixel_of(view_of(estimate), foot), .depth_m = -foot.z(), .height_m = 0.2F});
-    ASSERT_EQ(face.lights.size(), 1U);
-    ASSERT_EQ(scene.lamps.size(), 1U);
-    const render::BallLamp& lamp = scene.lamps[0];
-    // The patch's centroid is found to about a degree, as cells are 3.7 degrees wide; rays 1.5 m long meet at a slant.
-    EXPECT_LT((lamp.position.cast<double>() - lamp_m).norm(), 0.08);
-    EXPECT_GT(lamp.radius_m, 0);
-    const double distance = (lamp.position.cast<double>() - face.face.position_m()).norm();
-    const Eigen::Vector3d by_lamp = lamp.intensity.cast<double>() / (distance * distance);
-    const Eigen::Vector3d rest = scene.environment.integral();
-    const Eigen::Vector3d whole = face.environment.integral();
-    EXPECT_LT(luminance_of(rest), 0.5 * luminance_of(whole));  // the lamp was most of it
-    // Of either face: each is lit by the map that is its own.
-    for (int c = 0; c < 3; ++c) EXPECT_NEAR(by_lamp[c] + rest[c], whole[c], 0.01 * whole[c]) << i << ' ' << c;
-    // What is left is as bright as the surround; interpolated, then scaled to keep each channel's sum.
-    const Image& map = scene.environment.radiance();
-    for (int y = 0; y < map.height(); ++y) {
-      for (int x = 0; x < map.width(); ++x)
-        ASSERT_NEAR(luminance_of(Eigen::Map<const Eigen::Vector3f>(map.pixel(x, y)).cast<double>()), 0.1, 0.005)
-            << x << ' ' << y;
-    }
-  }
-}
-
-TEST(Insertion, LightsWithoutAPlaceStayInTheMap) {
-  Estimate estimate = under_one_lamp({0.2, 0.9, -0.9});
-  const auto plain = [&] {
-    const insert::Scene scene = scene_for(photo_of(estimate), estimate, marker());
-    const bool known = scene.environment.radiance() == estimate.faces[0].environment.radiance() ||
-                       scene.environment.radiance() == estimate.faces[1].environment.radiance();
-    return scene.lamps.empty() && known;
-  };
-  EXPECT_FALSE(plain());
-  for (FaceEstimate& face : estimate.faces) light_face(face, {0.5, 0.7, 0.4}, 3);  // the sun
-  EXPECT_TRUE(plain());
-  light_face(estimate.faces[0], {-0.9, 0.1, 0.3}, 3);  // lights that do not meet
-  light_face(estimate.faces[1], {0.9, 0.1, 0.3}, 3);
-  EXPECT_TRUE(plain());
-  for (FaceEstimate& face : estimate.faces) face.lights.clear();
-  EXPECT_TRUE(plain());
-}
-
 TEST(InsertionOptions, SayWhatIsWrong) {
   const auto nan = std::numeric_limits<float>::quiet_NaN();
   const auto infinite = std::numeric_limits<double>::infinity();
@@ -387,6 +284,8 @@ TEST(InsertionOptions, SayWhatIsWrong) {
     faults({.height_m = wrong}, "height");
   }
   faults({.depth_m = -2.5F}, "-2.5");
+  for (const float wrong : {101.0F, -1e9F, nan}) faults({.beside_m = wrong}, "beside");
+  faults({.at_px = Eigen::Vector2d(3, 3), .beside_m = 0.2F}, "twice");
   faults({.turn_deg = nan}, "turn");
   faults({.horizon_px = infinite}, "horizon");
 }
@@ -464,8 +363,8 @@ TEST(InsertionFiles, AreTheListedOnesInThePhotosSize) {
     EXPECT_EQ(file.parent_path(), folder / "new/one");
     told.push_back(file.filename().string());
   }
-  EXPECT_EQ(told, (std::vector<std::string>{"composite.png", "object.png", "object.exr", "shadow.exr", "depth.exr",
-                                            "normal.exr", "insert.json"}));
+  EXPECT_EQ(told, (std::vector<std::string>{"composite.png", "composite.exr", "object.png", "object.exr", "shadow.exr",
+                                            "depth.exr", "normal.exr", "insert.json"}));
   std::vector<std::string> found;
   for (const auto& entry : std::filesystem::directory_iterator(folder / "new/one"))
     found.push_back(entry.path().filename().string());
@@ -483,6 +382,19 @@ TEST(InsertionFiles, AreTheListedOnesInThePhotosSize) {
   EXPECT_EQ(io::read_linear_picture(folder / "new/one/shadow.exr")(0, 0, 0), 1);
   EXPECT_EQ(io::read_linear_picture(folder / "new/one/depth.exr")(0, 0, 0), 0);
   EXPECT_NEAR(io::load_photo(folder / "new/one/composite.png").linear(0, 0, 0), 0.4F, 0.004F);  // half of 1/255 encoded
+}
+
+TEST(InsertionFiles, TheLinearCompositeIsNotClipped) {
+  Drawn drawn;
+  drawn.done.picture(3, 4, 1) = 20;  // a highlight
+  const TempFolder folder;
+  write_insertion(folder.path(), drawn.done, drawn.scene, "photo.jpg", "ball");
+  const Image linear = io::read_linear_picture(folder / "composite.exr");
+  ASSERT_TRUE(linear.same_size(drawn.done.picture));
+  for (std::size_t i = 0; i < linear.values().size(); ++i) {
+    const float value = drawn.done.picture.data()[i];
+    ASSERT_NEAR(linear.data()[i], value, 1e-3F * value + 1e-6F);  // half floats have 11 bits
+  }
 }
 
 TEST(InsertionFiles, TheObjectHasStraightAlpha) {
@@ -526,7 +438,7 @@ TEST(InsertionFiles, AFolderThatCannotBeMadeLeavesNothing) {
   expect_error(ExitCode::kOutput, {"object.png"},
                [&] { write_insertion(folder / "half", drawn.done, drawn.scene, "photo.jpg", "ball"); });
   EXPECT_EQ(io::load_photo(folder / "half/composite.png").linear.width(), 96);
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder / "half"), {}), 2);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder / "half"), {}), 3);  // the composites, the folder
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 //   const insert::Scene scene = pipeline::scene_for(photo, estimate, render::shape("pot"), {.height_m = 0.15F});
 //   const insert::Insertion done = insert::insert_model(photo.linear, scene);
 //
+// Where several faces tell where lamps stand (room.h), these are lamps of the scene, and out of its map.
+//
 // Unless told otherwise the thing stands in the lower corner with more room, nearer than the largest face. People are known only as far as the
 // faces' crops go: a thing behind a shoulder needs a matte.
 
@@ -19,13 +21,17 @@ namespace faceprobe::pipeline {
 
 struct InsertionOptions {
   std::optional<Eigen::Vector2d> at_px{};  // pixel of the photo where the thing's foot is seen
+  // Of the foot to the right of the face's middle, below 0 to its left, metres along the photo's rows; low in the picture, as deep as the face
+  // unless depth_m says otherwise. Of `face`, else of the largest one; not with at_px.
+  std::optional<float> beside_m{};
   std::optional<float> depth_m{};      // of the foot along the camera's axis; else three quarters of the largest face's
   std::optional<float> height_m{};     // else so that its longer side takes .35 of the picture's shorter one
   float turn_deg = 0;                  // about its own axis; positive turns its front to the right of the photo
   std::optional<double> horizon_px{};  // height of the horizon in the photo; else up is told by the heads
   bool ground = true;                  // whether it stands on something that takes its shadow
   std::optional<int> face{};  // of the estimate, in whose light the thing stands; else the face that is nearest to it
-  bool joint_light = false;   // in the one light of all faces, where there are several; `face` is of no matter then
+  bool joint_light =
+      false;  // in the one light of all faces, where there are several; `face` is of no matter for the light then
   lighting::MainLightOptions main_lights{};  // those of the estimate
   Image matte{};  // the photo's size, one channel: people in front of far things; empty = the faces' crops tell
 

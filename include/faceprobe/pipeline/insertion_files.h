@@ -1,7 +1,7 @@
 #pragma once
 // The folder that `faceprobe insert` leaves:
 //
-//   composite.png   the photo with the thing in it
+//   composite.png   the photo with the thing in it;  composite.exr: linear, nothing clipped
 //   object.png      the thing alone, straight alpha;  object.exr: linear, premultiplied
 //   shadow.exr      factor on the photo;  depth.exr (metres), normal.exr (camera frame)
 //   insert.json     what stands where, in which light
