@@ -39,7 +39,8 @@ std::string room_json(const Room& room, const std::string& source);
 std::string room_gltf(const Room& room, const face::Camera& camera, int photo_width, int photo_height);
 // From above and from the side, as in the paper's figure: camera, faces, rays, lamps and one standard deviation about them. sRGB.
 ByteImage draw_room(const Room& room);
-// All three as room.json, room.gltf and room.png of the folder, which is made where it is not there; returns them in order. Throws Error(kOutput).
+// All three as room.json, room.gltf and room.png of the folder, which is made where it is not there; returns them in order. In room.gltf the
+// faces' nodes have their meshes. Throws Error(kOutput), Error(kModel) without the mesh's file.
 std::vector<std::filesystem::path> write_room(const std::filesystem::path& folder, const Room& room,
                                               const Estimate& estimate, const std::string& source);
 
