@@ -23,15 +23,6 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kMediaTyp
     {".py", "text/x-python; charset=utf-8"},
 }};
 
-std::string_view kind_of(render::MaterialKind kind) {
-  switch (kind) {
-    case render::MaterialKind::kMetal: return "metal";
-    case render::MaterialKind::kPlastic: return "plastic";
-    case render::MaterialKind::kGlass: return "glass";
-    default: return "diffuse";
-  }
-}
-
 template <class Matrix>
 Json row_by_row(const Matrix& matrix) {
   Json all = Json::array();
@@ -68,7 +59,7 @@ Json files_json(const std::vector<ServedFile>& files) {
 
 Json material_json(const render::Material& material) {
   return {{"name", material.name},
-          {"kind", kind_of(material.kind)},
+          {"kind", render::name_of(material.kind)},
           {"colour_rgb", vector_json(material.colour)},
           {"roughness", material.roughness},
           {"index", material.index}};

@@ -71,6 +71,15 @@ std::optional<Eigen::Vector2d> take_point(Json& json, const char* key) {
   return Eigen::Vector2d((*value)[0].get<double>(), (*value)[1].get<double>());
 }
 
+std::optional<Eigen::Vector3f> take_colour(Json& json, const char* key) {
+  const std::optional<Json> value = take(json, key);
+  if (!value) return std::nullopt;
+  if (!value->is_array() || value->size() != 3 ||
+      !std::ranges::all_of(*value, [](const Json& v) { return v.is_number(); }))
+    throw Refusal(FailureKind::kUsage, "'" + std::string(key) + "' must be three numbers, red, green and blue.");
+  return Eigen::Vector3f((*value)[0].get<float>(), (*value)[1].get<float>(), (*value)[2].get<float>());
+}
+
 // Names only: a client's file names are none of this machine's.
 void check_name(const std::string& name, const std::vector<std::string>& known, const char* what) {
   if (std::ranges::find(known, name) != known.end()) return;
@@ -81,6 +90,18 @@ void check_name(const std::string& name, const std::vector<std::string>& known, 
 std::optional<float> as_float(std::optional<double> value) {
   if (!value) return std::nullopt;
   return static_cast<float>(*value);
+}
+
+render::MaterialChange take_surface(Json& json) {
+  render::MaterialChange surface;
+  if (const std::string kind = take_text(json, "kind", ""); !kind.empty()) {
+    check_name(kind, render::material_kind_names(), "kind of material");
+    surface.kind = render::material_kind(kind);
+  }
+  surface.colour = take_colour(json, "colour_rgb");
+  surface.roughness = as_float(take_number(json, "roughness"));
+  surface.index = as_float(take_number(json, "index"));
+  return surface;
 }
 
 }  // namespace
@@ -100,7 +121,9 @@ InsertionRequest read_insertion_request(const std::string& body) {
   check_name(request.object, render::shape_names(), "object");
   request.material = take_text(json, "material", "");
   if (!request.material.empty()) check_name(request.material, render::material_preset_names(), "material");
+  request.surface = take_surface(json);
   request.where.at_px = take_point(json, "at_px");
+  request.where.beside_m = as_float(take_number(json, "beside_m"));
   request.where.depth_m = as_float(take_number(json, "distance_m"));
   request.where.height_m = as_float(take_number(json, "height_m"));
   request.where.turn_deg = as_float(take_number(json, "turn_deg")).value_or(0);

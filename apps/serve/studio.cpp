@@ -82,7 +82,8 @@ struct Studio::Bench {
     const std::shared_ptr<const io::Photo> photo = photos.of(record.estimate);
     Image linear = photo->linear;
     insert::Scene scene = pipeline::scene_for(
-        *photo, record.estimate->estimate, assets::model_named(request.object, request.material).model, request.where);
+        *photo, record.estimate->estimate, assets::model_named(request.object, request.material, request.surface).model,
+        request.where);
     insert::Options how;
     how.render.threads = estimator.options().threads;
     how.render.progress = [&](float share) {
@@ -138,6 +139,8 @@ std::shared_ptr<InsertionRecord> Studio::add_insertion(const std::string& estima
   if (phase != JobPhase::kDone)
     throw Refusal(FailureKind::kNotReady, "The light of this photo is not known yet; wait until its estimate is done.");
   if (const std::string fault = request.where.validate(); !fault.empty()) throw Error(ExitCode::kUsage, fault);
+  if (!request.surface.empty())
+    assets::model_named(request.object, request.material, request.surface);  // or a sentence
   auto record = std::make_shared<InsertionRecord>(new_id(), of);
   records_.add(record);
   const bool taken =

@@ -9,6 +9,7 @@
 
 #include "faceprobe/io/limits.h"
 #include "faceprobe/pipeline/insertion.h"
+#include "faceprobe/render/material.h"
 
 #include <chrono>
 #include <functional>
@@ -19,7 +20,8 @@ namespace faceprobe::serve {
 
 struct InsertionRequest {
   std::string object;
-  std::string material;  // empty = the object's own
+  std::string material;              // empty = the object's own
+  render::MaterialChange surface{};  // of that
   pipeline::InsertionOptions where;
   bool preview = false;
 };

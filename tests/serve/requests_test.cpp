@@ -47,11 +47,33 @@ TEST(InsertionRequests, AllThatCanBeAskedForIsRead) {
   EXPECT_TRUE(request.preview);
 }
 
+TEST(InsertionRequests, AMaterialIsChanged) {
+  const InsertionRequest request = read_insertion_request(
+      R"({"object": "pot", "kind": "plastic", "colour_rgb": [0.5, 0, 0.25], "roughness": 0.5, "index": 1.25, "beside_m": -0.5})");
+  EXPECT_EQ(request.surface.kind, render::MaterialKind::kPlastic);
+  EXPECT_EQ(request.surface.colour, Eigen::Vector3f(0.5F, 0, 0.25F));
+  EXPECT_EQ(request.surface.roughness, 0.5F);
+  EXPECT_EQ(request.surface.index, 1.25F);
+  EXPECT_EQ(request.where.beside_m, -0.5F);
+  expect_no_insertion(R"({"object": "cube", "kind": "wood"})", "diffuse, metal, plastic, glass");
+  expect_no_insertion(R"({"object": "cube", "kind": 1})", "'kind'");
+  for (const std::string colour : {"[1, 0]", "[1, 0, 0, 0]", "\"#ff0000\"", "[1, 0, \"0\"]", "null", "{\"r\": 1}"})
+    expect_no_insertion("{\"object\": \"cube\", \"colour_rgb\": " + colour + "}", "'colour_rgb'");
+  expect_no_insertion(R"({"object": "cube", "roughness": "0.5"})", "'roughness'");
+  expect_no_insertion(R"({"object": "cube", "index": [1]})", "'index'");
+  expect_no_insertion(R"({"object": "cube", "beside_m": "1"})", "'beside_m'");
+  // Read, and refused where it is checked.
+  EXPECT_NE(read_insertion_request(R"({"object": "cube", "roughness": 2})").surface.validate(), "");
+  EXPECT_NE(read_insertion_request(R"({"object": "cube", "colour_rgb": [0, 1e300, 0]})").surface.validate(), "");
+}
+
 TEST(InsertionRequests, WhatIsLeftOutIsAsInTheCommand) {
   const InsertionRequest request = read_insertion_request(R"({"object": "cube"})");
   const pipeline::InsertionOptions usual;
   EXPECT_EQ(request.material, "");
-  EXPECT_FALSE(request.where.at_px || request.where.depth_m || request.where.height_m || request.where.face);
+  EXPECT_TRUE(request.surface.empty());
+  EXPECT_FALSE(request.where.beside_m || request.where.at_px || request.where.depth_m || request.where.height_m ||
+               request.where.face);
   EXPECT_EQ(request.where.joint_light, usual.joint_light);
   EXPECT_EQ(request.where.turn_deg, usual.turn_deg);
   EXPECT_EQ(request.where.ground, usual.ground);

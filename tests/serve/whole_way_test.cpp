@@ -140,8 +140,8 @@ TEST_F(WholeWayTest, PhotoToLightToPictureAndAway) {
   EXPECT_EQ("/estimates/" + insertion["estimate"].get<std::string>(), address);
   std::set<std::string> names;
   for (const Json& file : insertion["files"]) names.insert(file["path"]);
-  EXPECT_EQ(names, (std::set<std::string>{"composite.png", "depth.exr", "insert.json", "normal.exr", "object.exr",
-                                          "object.png", "shadow.exr"}));
+  EXPECT_EQ(names, (std::set<std::string>{"composite.exr", "composite.png", "depth.exr", "insert.json", "normal.exr",
+                                          "object.exr", "object.png", "shadow.exr"}));
   expect_files(server, drawn, insertion["files"]);
   // A preview's longer side has 640 px.
   EXPECT_EQ(png_size(server.get(drawn + "/files/composite.png").body), std::pair(546, 640));

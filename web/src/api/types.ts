@@ -157,7 +157,12 @@ export function isDone(estimate: Estimate): estimate is DoneEstimate {
 export interface InsertionRequest {
   object: string;
   material?: string;
+  kind?: Material['kind'];
+  colour_rgb?: [number, number, number];
+  roughness?: number;
+  index?: number;
   at_px?: [number, number];
+  beside_m?: number;
   distance_m?: number;
   height_m?: number;
   turn_deg?: number;
