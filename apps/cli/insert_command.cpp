@@ -11,6 +11,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -25,10 +26,11 @@ constexpr int kPreviewSamples = 16;
 struct Options : SharedOptions {
   std::string output = "faceprobe-insert";
   std::string object = "pot";
-  std::string material;
+  std::string material, kind, colour;
+  std::optional<float> roughness, index;
   std::string matte;
   std::vector<double> at_px;
-  std::optional<float> depth_m, height_m;
+  std::optional<float> beside_m, depth_m, height_m;
   std::optional<double> horizon_px;
   double turn_deg = 0;
   bool no_ground = false;
@@ -43,15 +45,36 @@ Image matte_of(const Options& options) {
   return options.matte.empty() ? Image() : pipeline::matte_from(io::load_photo(options.matte, options.limits));
 }
 
+render::MaterialChange change_of(const Options& options) {
+  render::MaterialChange change{.roughness = options.roughness, .index = options.index};
+  const std::vector<std::string>& kinds = render::material_kind_names();
+  if (!options.kind.empty()) {
+    if (std::ranges::find(kinds, options.kind) == kinds.end()) {
+      throw Error(ExitCode::kUsage, "There is no kind of material called '" + options.kind + "'; take one of " +
+                                        assets::listed(kinds) + ".");
+    }
+    change.kind = render::material_kind(options.kind);
+  }
+  if (options.colour.empty()) return change;
+  change.colour = render::colour_from(options.colour);
+  if (!change.colour) {
+    throw Error(
+        ExitCode::kUsage,
+        "A colour is R,G,B of linear light, from 0 to 1, or #rrggbb as on web pages; found '" + options.colour + "'.");
+  }
+  return change;
+}
+
 int run(const Options& options) {
   if (options.inputs.size() != 1)
     throw Error(ExitCode::kUsage,
                 "An object is put into one photo, found " + std::to_string(options.inputs.size()) + ".");
   // Before the photo: a typing error should not cost an estimate.
   const bool picture_alone = is_picture_output(options.output);
-  assets::LoadedModel object = assets::model_named(options.object, options.material);
+  assets::LoadedModel object = assets::model_named(options.object, options.material, change_of(options));
   for (const std::string& warning : object.warnings) spdlog::warn("{}: {}", options.object, warning);
-  pipeline::InsertionOptions where{.depth_m = options.depth_m,
+  pipeline::InsertionOptions where{.beside_m = options.beside_m,
+                                   .depth_m = options.depth_m,
                                    .height_m = options.height_m,
                                    .turn_deg = static_cast<float>(options.turn_deg),
                                    .horizon_px = options.horizon_px,
@@ -110,11 +133,26 @@ void add_insert(CLI::App& program, Action& action) {
   command->add_option("--material", options->material, "what all of it is made of; default: the object's own")
       ->type_name("{" + joined(render::material_preset_names(), ",") + "}");
   command
+      ->add_option("--colour", options->colour,
+                   "its colour: R,G,B of linear light, 0 to 1, or #rrggbb as on web pages; default: the material's own")
+      ->type_name("R,G,B|#RRGGBB");
+  command->add_option("--kind", options->kind, "how its surface answers light; default: as the material does")
+      ->type_name("{" + joined(render::material_kind_names(), ",") + "}");
+  command->add_option("--roughness", options->roughness,
+                      "of metal and plastic, from 0, a mirror, to 1; default: the material's own");
+  command->add_option("--ior", options->index,
+                      "index of refraction of plastic and glass, from 1 to 3; default: the material's own");
+  command
       ->add_option("--at", options->at_px,
                    "pixel of the photo, X and Y, where its foot stands; default: the lower corner with more room")
       ->expected(2);
-  command->add_option("--distance", options->depth_m,
-                      "metres from the camera to it; default: three quarters of the largest face's");
+  command->add_option(
+      "--beside", options->beside_m,
+      "in place of --at: metres to the right of the largest face, below 0 to its left, as far away as the "
+      "face and low in the picture; default: not beside it");
+  command->add_option(
+      "--distance", options->depth_m,
+      "metres from the camera to it; default: the largest face's with --beside, else three quarters of it");
   command->add_option("--height", options->height_m,
                       "its height in metres; default: its longer side takes 35 % of the picture's shorter one");
   command->add_option("--turn", options->turn_deg, "degrees about its own axis, its front to the right")
@@ -139,10 +177,12 @@ void add_insert(CLI::App& program, Action& action) {
   add_face_options(*command, *options);
   add_solver_options(*command, *options);
   command->footer(
-      "Takes one photo. The folder gets composite.png, the object alone with alpha, its shadow, depth and normals,\n"
-      "and insert.json, which says what stands where.\n\n"
+      "Takes one photo. The folder gets composite.png and, linear, composite.exr, the object alone with alpha, its\n"
+      "shadow, depth and normals, and insert.json, which says what stands where.\n\n"
       "Examples:\n  faceprobe insert portrait.jpg -o with_pot.png\n"
       "  faceprobe insert portrait.jpg --object bunny.ply --material silver --height 0.15 --preview -o look.png\n"
+      "  faceprobe insert portrait.jpg --object sphere --material plastic --colour '#c02010' --beside 0.25 -o "
+      "ball.png\n"
       "  faceprobe insert portrait.jpg --object robot.glb --at 300 1180 --turn 30 -o out");
   command->callback([options, &action] { action = [options] { return run(*options); }; });
 }

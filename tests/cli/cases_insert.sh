@@ -37,8 +37,26 @@ case_insert() {
   rm again.exr
   # A folder holds everything; and what --json prints is in it.
   expect_exit 0 "${cube[@]}" -o "not/there yet" --material gold --matte floating.png --json
-  expect_files "not/there yet" composite.png object.png object.exr shadow.exr depth.exr normal.exr insert.json
+  expect_files "not/there yet" composite.png composite.exr object.png object.exr shadow.exr depth.exr normal.exr insert.json
   cmp "$work/stdout" "not/there yet/insert.json" || fail "--json prints something else than insert.json holds"
+}
+
+# Colour, kind, roughness and index of refraction; and a place by metres.
+case_insert_materials() {
+  local ball=(insert "$photo" --object sphere --height 0.08 --no-ground "${few_rays[@]}")
+  expect_exit 0 "${ball[@]}" --at 400 550 -o own.png
+  # .08 m at three quarters of .72 m, focal length 911 px, are 135 px.
+  for change in "--colour #c01010" "--colour 0,0.5,0" "--kind metal --roughness 0.4" "--material glass --ior 1.1"; do
+    # shellcheck disable=SC2086  # options and their values
+    expect_exit 0 "${ball[@]}" --at 400 550 $change -o changed.png
+    expect_difference own.png changed.png 317 400 484 565
+  done
+  # The same by two ways.
+  expect_exit 0 "${ball[@]}" --at 400 550 --material diffuse --colour '#ffffff' --deterministic -o white.png
+  expect_exit 0 "${ball[@]}" --at 400 550 --colour 1,1,1 --kind diffuse --deterministic -o again.png
+  cmp white.png again.png || fail "white is not white"
+  expect_exit 0 "${ball[@]}" --beside -0.15 -o beside.png
+  expect_difference "$photo" beside.png 0 415 150 560  # 101 px large, 182 px to the left of the face's middle
 }
 
 case_insert_preview() {
@@ -65,6 +83,15 @@ case_insert_refusals() {
   local plain=(--object cube)
   expect_no_picture 2 "pot, robot, spheres" "$photo" --object conjured
   expect_no_picture 2 "silver" "$photo" "${plain[@]}" --material conjured
+  expect_no_picture 2 "R,G,B" "$photo" "${plain[@]}" --colour crimson
+  expect_no_picture 2 "colour must be from 0 to 1" "$photo" "${plain[@]}" --colour 2,0,0
+  expect_no_picture 2 "diffuse, metal, plastic, glass" "$photo" "${plain[@]}" --kind wood
+  expect_no_picture 2 "roughness must be from 0 to 1" "$photo" "${plain[@]}" --kind metal --roughness 1.5
+  expect_no_picture 2 "metal and plastic" "$photo" "${plain[@]}" --material glass --roughness 0.5
+  expect_no_picture 2 "from 1 to 3" "$photo" "${plain[@]}" --kind glass --ior 0.5
+  expect_no_picture 2 "plastic and glass" "$photo" "${plain[@]}" --material gold --ior 1.4
+  expect_no_picture 2 "beside" "$photo" "${plain[@]}" --beside 1000
+  expect_no_picture 2 "twice" "$photo" "${plain[@]}" --beside 0.2 --at 30 40
   expect_no_picture 2 "one photo, found 2" "$photo" "$photo" "${plain[@]}"
   expect_no_picture 2 "height" "$photo" "${plain[@]}" --height 0
   expect_no_picture 2 "height" "$photo" "${plain[@]}" --height nan
@@ -129,9 +156,48 @@ case_relight() {
   expect_difference "$photo" dimmed.png 120 100 400 460  # the face, and nothing else
   expect_exit 0 relight "$photo" "${quick[@]}" --dim 1 -o dimmed.png --json
   expect_json 1 "$work/stdout" faces
+  # The same light named with its share, and half of it.
+  expect_exit 0 relight "$photo" "${quick[@]}" --deterministic --dim 1 -o dimmed.png
+  expect_exit 0 relight --dim 1=1 "$photo" "${quick[@]}" --deterministic -o again.png
+  cmp dimmed.png again.png || fail "--dim 1=1 is not --dim 1"
+  expect_exit 0 relight "$photo" "${quick[@]}" --dim 1=0.5 -o again.png
+  expect_difference dimmed.png again.png 120 100 400 460
+  rm again.png
   expect_refused 2 "would stay as it is" relight "$photo" "${quick[@]}" -o same.png
   expect_exit 0 estimate "$photo" "${quick[@]}" -o light.exr
   expect_refused 2 "dim is for" relight "$photo" "${quick[@]}" --dim 1 --map light.exr -o both.png
   expect_refused 3 "no_such_map.exr" relight "$photo" "${quick[@]}" --map no_such_map.exr -o lost.png
   expect_files "$work" stdout stderr dimmed.png light.exr number json
+}
+
+case_relight_refusals() {
+  local wrong
+  for wrong in x 1=x 1= = 1.5 "1=0.5=2"; do
+    expect_refused 2 "--dim" relight "$photo" --dim "$wrong" -o out.png
+  done
+  expect_refused 2 "numbered from 1" relight "$photo" --dim 0 -o out.png
+  expect_refused 2 "found 6" relight "$photo" --dim 6 -o out.png
+  expect_refused 2 "share of light 2" relight "$photo" --dim 2=1.5 -o out.png
+  expect_refused 2 "twice" relight "$photo" --dim 2 --dim 2=0.5 -o out.png
+  expect_files "$work" stdout stderr
+}
+
+# The same face twice: what it sees comes from the same directions, so from afar.
+case_triangulate() {
+  "$picture_tool" double "$photo" pair.png
+  expect_exit 0 triangulate pair.png "${quick[@]}" -o "not/there yet" --json
+  expect_files "not/there yet" room.json room.gltf room.png
+  cmp "$work/stdout" "not/there yet/room.json" || fail "--json prints something else than room.json holds"
+  expect_json faceprobe-room/1 "$work/stdout" schema
+  expect_json pair.png "$work/stdout" photo
+  local left right
+  left=$(json "$work/stdout" faces 0 position_m 0)
+  right=$(json "$work/stdout" faces 1 position_m 0)
+  case $left in -*) ;; *) fail "the left face is at $left m" ;; esac
+  case $right in -*) fail "the right face is at $right m" ;; esac
+  json "$work/stdout" lamps 0 seen_by 1 face >/dev/null || fail "no light is seen by both"
+  # The scene can be read: two masks, beside one another.
+  expect_exit 0 insert "$photo" --object "not/there yet/room.gltf" --height 0.05 -o masks.png "${few_rays[@]}"
+  expect_exit 0 info "not/there yet/room.png"
+  expect_stdout "1280 x 640 px"
 }

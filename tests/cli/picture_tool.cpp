@@ -1,6 +1,7 @@
 // What the command's tests need of pictures.
 //   picture_tool difference A B   "width height left top right bottom": A's size, and the box of the pixels where B is another; 0 0 0 0 for none
 //   picture_tool enlarge A B      writes A at twice its size to B
+//   picture_tool double A B       writes A and again A to its right to B
 
 #include "faceprobe/core/color.h"
 #include "faceprobe/core/pixel_box.h"
@@ -40,9 +41,21 @@ int difference(const Image& a, const Image& b) {
   return 0;
 }
 
+Image twice_side_by_side(const Image& a) {
+  Image out(2 * a.width(), a.height(), a.channels());
+  for (int y = 0; y < a.height(); ++y) {
+    for (const int left : {0, a.width()}) std::copy_n(a.pixel(0, y), a.row(y).size(), out.pixel(left, y));
+  }
+  return out;
+}
+
 int run(const std::string& verb, const char* first, const char* second) {
   const Image a = io::load_photo(first).linear;
   if (verb == "difference") return difference(a, io::load_photo(second).linear);
+  if (verb == "double") {
+    io::write_picture(second, twice_side_by_side(a));
+    return 0;
+  }
   if (verb != "enlarge") return 2;
   io::write_picture(second,
                     resampled(a, {.scale = 2, .width = 2 * a.width(), .height = 2 * a.height()}, Outside::kEdge));

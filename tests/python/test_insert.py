@@ -52,6 +52,30 @@ class Insert(InFolder):
         self.assertTrue((done.shadow == 1).all())
         self.assertTrue(json.loads(done.to_json())["ground"] is None)
 
+    def test_stands_beside_the_face(self):
+        face = portrait().largest
+        done = insert(object="sphere", beside=-0.12, height=0.05, ground=False)
+        columns = np.nonzero(done.object[..., 3] > 0.5)[1]
+        wanted = portrait().width / 2 + (face.position_m[0] - 0.12) * portrait().focal_px / -face.position_m[2]
+        # Its foot is there, and heads, which tell what is up, lean by a few degrees: .025 m higher that is a pixel or two.
+        self.assertAlmostEqual(done.box[0] + columns.mean() + 0.5, wanted, delta=3)
+        with self.assertRaisesRegex(fp.UsageError, "twice"):
+            insert(beside=0.1, at=(100, 500))
+
+    def test_is_of_what_it_is_told(self):
+        def colour_of(**options):
+            done = insert(object="sphere", height=0.05, at=(100, 500), ground=False, samples=64, noise=0.0, **options)
+            alpha = done.object[..., 3]
+            return done.object[alpha > 0.99][:, :3].mean(axis=0)
+
+        red = colour_of(material="diffuse", colour=(0.6, 0.01, 0.01))
+        grey = colour_of(material="diffuse", colour=(0.6, 0.6, 0.6))
+        self.assertAlmostEqual(red[0] / grey[0], 1, delta=0.01)  # the same rays
+        self.assertLess(red[1] / grey[1], 0.05)  # 1 / 60, and noise
+        np.testing.assert_allclose(colour_of(material="diffuse", colour="#ffffff"), grey / 0.6, rtol=0.01)
+        smooth, rough = (insert(kind="metal", roughness=roughness).object for roughness in (0.1, 0.8))
+        self.assertTrue((smooth != rough).any())
+
     def test_the_seed_decides(self):
         np.testing.assert_array_equal(insert().picture, insert(threads=1).picture)
         self.assertTrue((insert(noise=0.0).object != insert(noise=0.0, seed=2).object).any())
@@ -92,7 +116,10 @@ class Insert(InFolder):
 
     def test_refuses(self):
         for wrong in ({"object": "unicorn"}, {"material": "cheese"}, {"samples": 0}, {"noise": -1.0}, {"height": -1.0},
-                      {"distance": float("nan")}, {"threads": -1}, {"at": (1e9, 0)}):
+                      {"distance": float("nan")}, {"threads": -1}, {"at": (1e9, 0)}, {"beside": 1e9}, {"kind": "wood"},
+                      {"colour": "crimson"}, {"colour": (2, 0, 0)}, {"kind": "metal", "roughness": 1.5},
+                      {"kind": "glass", "roughness": 0.5}, {"kind": "glass", "ior": 0.5},
+                      {"kind": "metal", "ior": 1.4}):
             with self.subTest(**wrong), self.assertRaises(fp.UsageError):
                 insert(**wrong)
         with self.assertRaisesRegex(fp.UsageError, "The estimate is of a photo of"):
@@ -117,6 +144,13 @@ class Relight(InFolder):
         self.assertLess(columns.max(), x + 2 * width)
         self.assertLess(dimmed.mean(), portrait_light().mean())
 
+    def test_dims_by_shares(self):
+        out = fp.relight(portrait_light(), dim=1, estimate=portrait())
+        half = fp.relight(portrait_light(), dim={1: 0.5}, estimate=portrait())
+        self.assertLess(out.mean(), half.mean())
+        self.assertLess(half.mean(), portrait_light().mean())
+        np.testing.assert_array_equal(fp.relight(portrait_light(), dim=[1], estimate=portrait()), out)
+
     def test_takes_maps_and_their_files(self):
         env = portrait().faces[0].environment
         env.save(self.folder / "map.exr")
@@ -136,7 +170,8 @@ class Relight(InFolder):
         dark = fp.EnvMap(np.zeros((8, 16, 3), np.float32))
         with self.assertRaisesRegex(TypeError, r"map must be an EnvMap or a path, found ndarray; .*EnvMap\(array\)"):
             fp.relight(portrait_light(), estimate=portrait(), map=dark.to_numpy())
-        for wrong in ({}, {"dim": 6}, {"dim": -1}, {"turn": float("nan")}, {"exposure": 1e9}, {"map": dark, "dim": 1}):
+        for wrong in ({}, {"dim": 6}, {"dim": -1}, {"dim": [1, 1]}, {"dim": {1: 1.5}}, {"turn": float("nan")},
+                      {"exposure": 1e9}, {"map": dark, "dim": 1}):
             with self.subTest(**wrong), self.assertRaises(fp.UsageError):
                 fp.relight(portrait_light(), estimate=portrait(), **wrong)
         with self.assertRaisesRegex(fp.InputError, "no light"):

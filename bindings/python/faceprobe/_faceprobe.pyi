@@ -1,6 +1,6 @@
 import os
 from pathlib import Path
-from typing import ClassVar, Literal, Optional, Sequence, Tuple, Union
+from typing import ClassVar, Literal, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +13,7 @@ _Landmarks = Union[NDArray[np.float32], Sequence[Tuple[float, float]]]
 _Orientation = Literal["openexr", "three", "blender", "debevec"]
 _Separator = Literal["net", "tan", "yang", "shen"]
 _Material = Literal["diffuse", "plastic", "silver", "gold", "mirror", "glass", "clay", "red"]
+_Kind = Literal["diffuse", "metal", "plastic", "glass"]
 
 class FaceprobeError(Exception):
     code: ClassVar[int]
@@ -220,7 +221,12 @@ def insert(
     object: _Path = "pot",
     *,
     material: Optional[_Material] = None,
+    colour: Union[str, Tuple[float, float, float], None] = None,
+    kind: Optional[_Kind] = None,
+    roughness: Optional[float] = None,
+    ior: Optional[float] = None,
     at: Optional[Tuple[float, float]] = None,
+    beside: Optional[float] = None,
     distance: Optional[float] = None,
     height: Optional[float] = None,
     turn: float = 0.0,
@@ -237,7 +243,7 @@ def relight(
     photo: _Photo,
     *,
     map: Union[EnvMap, _Path, None] = None,
-    dim: int = 0,
+    dim: Union[int, Sequence[int], Mapping[int, float], None] = None,
     turn: float = 0.0,
     exposure: float = 0.0,
     threads: int = 0,

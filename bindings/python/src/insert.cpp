@@ -41,14 +41,43 @@ void check(const std::string& fault) {
   if (!fault.empty()) throw Error(ExitCode::kUsage, fault);
 }
 
+using ColourSource = std::variant<std::string, std::array<float, 3>>;
+
+render::MaterialChange change_of(const std::optional<std::string>& kind, const std::optional<ColourSource>& colour,
+                                 std::optional<float> roughness, std::optional<float> ior) {
+  render::MaterialChange change{.roughness = roughness, .index = ior};
+  const std::vector<std::string>& kinds = render::material_kind_names();
+  if (kind) {
+    if (std::ranges::find(kinds, *kind) == kinds.end())
+      throw Error(ExitCode::kUsage,
+                  "There is no kind of material called '" + *kind + "'; take one of " + assets::listed(kinds) + ".");
+    change.kind = render::material_kind(*kind);
+  }
+  if (!colour) return change;
+  if (const auto* rgb = std::get_if<std::array<float, 3>>(&*colour)) {
+    change.colour = Eigen::Vector3f((*rgb)[0], (*rgb)[1], (*rgb)[2]);
+    return change;
+  }
+  const auto& text = std::get<std::string>(*colour);
+  change.colour = render::colour_from(text);
+  if (!change.colour)
+    throw Error(
+        ExitCode::kUsage,
+        "A colour is three numbers of linear light, from 0 to 1, or '#rrggbb' as on web pages; found '" + text + "'.");
+  return change;
+}
+
 InsertedPtr insert_into(const py::object& photo, const std::filesystem::path& object,
-                        const std::optional<std::string>& material, const std::optional<std::array<double, 2>>& at,
-                        std::optional<float> distance, std::optional<float> height, double turn,
-                        std::optional<double> horizon, bool ground, const std::optional<MatteSource>& matte,
+                        const std::optional<std::string>& material, const std::optional<ColourSource>& colour,
+                        const std::optional<std::string>& kind, std::optional<float> roughness,
+                        std::optional<float> ior, const std::optional<std::array<double, 2>>& at,
+                        std::optional<float> beside, std::optional<float> distance, std::optional<float> height,
+                        double turn, std::optional<double> horizon, bool ground, const std::optional<MatteSource>& matte,
                         int samples, double noise, std::uint64_t seed, int threads, EstimatedPtr estimated) {
   check_threads(threads);
   PhotoSource source(photo);
-  pipeline::InsertionOptions where{.depth_m = distance,
+  pipeline::InsertionOptions where{.beside_m = beside,
+                                   .depth_m = distance,
                                    .height_m = height,
                                    .turn_deg = static_cast<float>(turn),
                                    .horizon_px = horizon,
@@ -59,6 +88,7 @@ InsertedPtr insert_into(const py::object& photo, const std::filesystem::path& ob
   how.render.noise = static_cast<float>(noise);
   how.render.seed = seed;
   how.render.threads = threads;
+  const render::MaterialChange change = change_of(kind, colour, roughness, ior);
   check(where.validate());
   check(how.validate());
   std::optional<std::filesystem::path> matte_file;
@@ -70,7 +100,7 @@ InsertedPtr insert_into(const py::object& photo, const std::filesystem::path& ob
   auto out = std::make_shared<Inserted>();
   out->photo = source.name();
   out->object = object.string();
-  assets::LoadedModel model = assets::model_named(object, material.value_or(""));
+  assets::LoadedModel model = assets::model_named(object, material.value_or(""), change);
   out->warnings = std::move(model.warnings);
   if (matte_file) where.matte = pipeline::matte_from(io::load_photo(*matte_file));
   const io::Photo loaded = std::move(source).load();
@@ -148,18 +178,22 @@ void bind_insert(py::module_& module) {
   const insert::Options usual;
   const double usual_noise = std::round(1e6 * static_cast<double>(usual.render.noise)) / 1e6;  // .03, and not .02999...
   module.def("insert", &insert_into, py::arg("photo"), py::arg("object") = "pot", py::kw_only(),
-             py::arg("material") = py::none(), py::arg("at") = py::none(), py::arg("distance") = py::none(),
-             py::arg("height") = py::none(), py::arg("turn") = 0.0, py::arg("horizon") = py::none(),
-             py::arg("ground") = true, py::arg("matte") = py::none(), py::arg("samples") = usual.render.samples,
-             py::arg("noise") = usual_noise, py::arg("seed") = 1, py::arg("threads") = 0,
-             py::arg("estimate") = py::none(),
+             py::arg("material") = py::none(), py::arg("colour") = py::none(), py::arg("kind") = py::none(),
+             py::arg("roughness") = py::none(), py::arg("ior") = py::none(), py::arg("at") = py::none(),
+             py::arg("beside") = py::none(), py::arg("distance") = py::none(), py::arg("height") = py::none(),
+             py::arg("turn") = 0.0, py::arg("horizon") = py::none(), py::arg("ground") = true,
+             py::arg("matte") = py::none(), py::arg("samples") = usual.render.samples, py::arg("noise") = usual_noise,
+             py::arg("seed") = 1, py::arg("threads") = 0, py::arg("estimate") = py::none(),
              R"(Puts an object into a photo, in the light of its faces; returns an Insertion.
 
 photo: as for estimate().
 object: "sphere", "cube", "pot", "robot", "spheres", or the path of an OBJ, PLY, STL, glTF or GLB file.
 material: in place of the object's own: "diffuse", "plastic", "silver", "gold", "mirror", "glass", "clay", "red".
+colour, kind, roughness, ior: of that material or the object's own, changed: (r, g, b) of linear light or "#rrggbb"; "diffuse", "metal",
+"plastic", "glass"; 0 to 1, of metal and plastic; the index of refraction, 1 to 3, of plastic and glass.
 at: (x, y), pixel of the photo where its foot stands; else the lower corner with more room.
-distance: metres from the camera; else three quarters of the largest face's.
+beside: in place of at, metres to the right of the largest face, below 0 to its left; as far away as the face and low in the picture.
+distance: metres from the camera; else the largest face's with beside, three quarters of it without.
 height: metres; else its longer side takes 35 % of the picture's shorter one.
 turn: degrees about its own axis, its front to the right.
 horizon: height of the horizon in the photo, pixels from the top; else from the heads.
