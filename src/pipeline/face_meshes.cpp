@@ -36,7 +36,7 @@ std::string base64(std::string_view bytes) {
   return text;
 }
 
-Gltf triple_of(const Eigen::RowVector3f& v) { return std::array<float, 3>{v.x(), v.y(), v.z()}; }
+Gltf corner_of(const Eigen::RowVector3f& v) { return std::array<float, 3>{v.x(), v.y(), v.z()}; }
 
 // Lists of numbers, one after another in one buffer. Each has a number of bytes that four divide.
 class Numbers {
@@ -51,8 +51,8 @@ class Numbers {
     accessor["count"] = rows.rows();
     accessor["type"] = "VEC3";
     if (with_bounds) {
-      accessor["min"] = triple_of(rows.colwise().minCoeff());
-      accessor["max"] = triple_of(rows.colwise().maxCoeff());
+      accessor["min"] = corner_of(rows.colwise().minCoeff());
+      accessor["max"] = corner_of(rows.colwise().maxCoeff());
     }
     gltf_["accessors"].push_back(std::move(accessor));
     return gltf_["accessors"].size() - 1;

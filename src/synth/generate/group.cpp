@@ -11,7 +11,6 @@ namespace {
 
 enum GroupPurpose : std::uint64_t { kPlaces = 21, kGroupCamera };
 
-constexpr int kMostPeople = 4;
 constexpr double kShoulders =
     0.52;  // metres between the middles of neighbours at least: they do not cut through each other
 constexpr float kFaceRoom = 0.16F;      // metres around an origin between the eyes that belong to the face

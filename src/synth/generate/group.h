@@ -9,6 +9,8 @@
 
 namespace faceprobe::synth {
 
+inline constexpr int kFewestPeople = 2, kMostPeople = 4;  // of a group
+
 // The people of a scene: one in the head's own frame, or for Recipe::multi_face two to four (Recipe::people of them) from left to right, placed in
 // the scene.
 std::vector<Person> draw_people(const Assets& assets, const Recipe& recipe, int number);

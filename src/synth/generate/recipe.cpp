@@ -1,12 +1,13 @@
 #include "faceprobe/synth/recipe.h"
 
+#include "synth/generate/group.h"
+
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 namespace faceprobe::synth {
 namespace {
 
-constexpr int kFewestPeople = 2, kMostPeople = 4;
 constexpr int kMostLamps = 8;
 constexpr double kLeastLampDistance = 0.6, kMostLampDistance = 20;  // metres
 
