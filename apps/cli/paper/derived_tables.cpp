@@ -61,9 +61,10 @@ ReportTable sun_table(const eval::ScoreTable& scores, const std::string& title, 
   table.decimals.insert(table.decimals.end(), {1, 0});
   table.better.insert(table.better.end(), {Better::kLower, Better::kNeither});
   for (const std::string& method : scores.methods()) {
-    const std::vector<double> errors = scores.known_values("sun_centroid", {method, group, label});
+    const eval::Selection rows{method, group, label};
+    const std::vector<double> errors = scores.known_values("sun_centroid", rows);
     if (errors.empty()) continue;
-    const eval::SunCurve curve = eval::sun_curve(errors);
+    const eval::SunCurve curve = eval::sun_curve(errors, {}, scores.known_persons("sun_centroid", rows));
     ReportTable::Row row{.name = method, .ours = ours.contains(method)};
     for (const double share : curve.within) row.values.emplace_back(100 * share);
     row.values.insert(row.values.end(), {curve.mark_deg, static_cast<double>(curve.count)});
