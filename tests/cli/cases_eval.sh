@@ -82,7 +82,7 @@ case_eval_cases_failures() {
   expect_stderr "results are missing"
   expect_ended "$(cat child)"
   grep -q "no idea" "$(sed -n 's/^| fails |.*| exit code 3 | \(.*\) |$/\1/p' stdout)/log.txt" || fail "what the method said was not kept"
-  grep -q '^fails,000000,exit code 3,' out/cases_runs.csv || fail "the reason is not in the table"
+  grep -q '^fails,000000,,exit code 3,' out/cases_runs.csv || fail "the reason is not in the table"
   # A failure is no result: it is tried again, and what was known is not.
   printf '#!/bin/sh\ncp "$1/gt.hdr" "$2/map.hdr"\n' >fails.sh
   expect_exit 0 eval cases --data cases --method "copy=./copy.sh {case} {out}" --method "fails=./fails.sh {case} {out}" -o out
