@@ -98,15 +98,10 @@ for table in "$data/hdri/train.csv" "$data/hdri/dev.csv"; do
   if [ -f "$table" ]; then scenes+=("$table"); fi
 done
 if [ ${#scenes[@]} -gt 0 ]; then scenes=(--scenes "${scenes[@]}"); fi
-mscr=$root/models/rivals/mscr.json
-if [ ! -f "$mscr" ]; then
-  mscr=$work/mscr_config.json
-  echo '{"architecture": "mscr"}' >"$mscr"
-fi
 
 train gardner gardner --data "$data/hdri/train" --validation "$data/hdri/dev" "${scenes[@]}"
 train sky sky --data "$data/hdri/train" --validation "$data/hdri/dev" "${scenes[@]}"
 train legendre legendre --data "$faces/train" --validation "$faces/dev"
-train mscr highlight --config "$mscr" --data "$faces/train" --validation "$faces/dev" --json
+train mscr highlight --config "$root/models/rivals/mscr.json" --data "$faces/train" --validation "$faces/dev" --json
 train shi highlight --config "$root/models/rivals/shi.json" --data "$faces/train" --validation "$faces/dev" --json
 exit $status
