@@ -1,5 +1,6 @@
 #include "paper/derived_tables.h"
 
+#include "faceprobe/eval/sun_metrics.h"
 #include "paper/yale.h"
 
 #include <gtest/gtest.h>
@@ -45,6 +46,26 @@ TEST(SunTable, CountsWhatWasNotFoundAsFar) {
   EXPECT_EQ(table.rows[0].note, "1 missing");
   EXPECT_TRUE(table.rows[0].ours);
   EXPECT_EQ(sun_table(scores, "Sun").rows[0].values.back(), 5);
+}
+
+TEST(SunTable, DrawsPeople) {
+  // Each error twice: as photos of one person they are no more than one.
+  eval::ScoreTable twice, once;
+  for (int i = 0; i < 8; ++i) {
+    const double error = 5.0 * (i + 1);
+    const std::string name = std::to_string(i);
+    once.add({"a", name, {}, {{"sun_centroid", error}}});
+    for (const char* which : {" x", " y"}) twice.add({"a", name + which, {}, {{"sun_centroid", error}}, name});
+  }
+  const std::size_t mark = eval::SunCurve::kAnglesDeg.size();
+  const auto width = [mark](const eval::ScoreTable& scores) {
+    const auto interval = sun_table(scores, "Sun").rows.at(0).intervals.at(mark);
+    return interval.value().second - interval.value().first;
+  };
+  EXPECT_NEAR(width(twice), width(once), 1e-9);  // the same draws of people have the same quartiles
+  eval::ScoreTable alone;
+  for (const char* sample : {"x", "y"}) alone.add({"a", sample, {}, {{"sun_centroid", 10.0}}, "ann"});
+  EXPECT_FALSE(sun_table(alone, "Sun").rows.at(0).intervals.at(mark));
 }
 
 TEST(MediansByFlash, PoolThePicturesNotTheMedians) {

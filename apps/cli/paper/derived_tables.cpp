@@ -69,7 +69,8 @@ ReportTable sun_table(const eval::ScoreTable& scores, const std::string& title, 
     for (const double share : curve.within) row.values.emplace_back(100 * share);
     row.values.insert(row.values.end(), {curve.mark_deg, static_cast<double>(curve.count)});
     row.intervals.resize(curve.within.size());
-    row.intervals.emplace_back(std::pair(curve.mark_low_deg, curve.mark_high_deg));
+    row.intervals.emplace_back();
+    if (std::isfinite(curve.mark_low_deg)) row.intervals.back() = {curve.mark_low_deg, curve.mark_high_deg};
     if (curve.missing > 0) row.note = std::to_string(curve.missing) + " missing";
     table.rows.push_back(std::move(row));
   }
