@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -97,11 +98,13 @@ class Numbers {
   std::string bytes_;
 };
 
-Gltf* node_of(Gltf& gltf, const std::string& name) {
-  for (Gltf& node : gltf["nodes"]) {
-    if (node.value("name", "") == name) return &node;
+// A number and no pointer: a new member of an ordered object moves all that it holds.
+std::optional<std::size_t> node_of(const Gltf& gltf, const std::string& name) {
+  const Gltf& nodes = gltf.at("nodes");
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (nodes[i].value("name", "") == name) return i;
   }
-  return nullptr;
+  return std::nullopt;
 }
 
 Gltf grey() {
@@ -123,20 +126,20 @@ void add_face_meshes(Gltf& gltf, const Estimate& estimate) {
   for (std::size_t i = 0; i < estimate.faces.size(); ++i) {
     const Eigen::MatrixX3f& vertices = estimate.faces[i].face.vertices_cam_m;
     const std::string name = "Face " + std::to_string(i + 1);
-    Gltf* const node = node_of(gltf, name);
-    if (node == nullptr || vertices.rows() != face::kMeshVertices) continue;
+    const std::optional<std::size_t> node = node_of(gltf, name);
+    if (!node || vertices.rows() != face::kMeshVertices) continue;
     if (!gltf.contains("meshes")) {
       corners = numbers.add(triangles);  // the same for all
       gltf["materials"].push_back(grey());
     }
-    const auto place = node->at("translation").get<std::array<double, 3>>();
+    const auto place = gltf["nodes"][*node].at("translation").get<std::array<double, 3>>();
     const Eigen::RowVector3f from = Eigen::RowVector3d(place[0], place[1], place[2]).cast<float>();
     Gltf primitive;
     primitive["attributes"]["POSITION"] = numbers.add(vertices.rowwise() - from, true);
     primitive["attributes"]["NORMAL"] = numbers.add(vertex_normals(vertices, triangles), false);
     primitive["indices"] = corners;
     primitive["material"] = 0;
-    (*node)["mesh"] = gltf.contains("meshes") ? gltf["meshes"].size() : 0;
+    gltf["nodes"][*node]["mesh"] = gltf.contains("meshes") ? gltf["meshes"].size() : 0;
     Gltf mesh;
     mesh["name"] = name;
     mesh["primitives"].push_back(std::move(primitive));

@@ -248,12 +248,12 @@ TEST(CaseExport, PhotosBecomeCasesWithTheirTruths) {
   EXPECT_EQ(
       export_cases(faces, cases, {.samples = 2, .scene = [](int) { return std::string("indoor"); }, .licence = "CC0"}),
       2);
-  EXPECT_EQ(case_folders(cases), (std::vector<fs::path>{cases / "000000", cases / "000001"}));
+  EXPECT_EQ(case_folders(cases), (std::vector<fs::path>{cases / "000000", cases / "000002"}));
   const Case one = read_case(cases / "000000");
   EXPECT_EQ(one.photo, small.truth.photo);
   EXPECT_EQ(one.groups.at("scene"), "indoor");
   EXPECT_TRUE(one.groups.contains("tone"));
-  EXPECT_EQ(one.groups.at("person"), read_case(cases / "000001").groups.at("person"));
+  EXPECT_EQ(one.groups.at("person"), read_case(cases / "000002").groups.at("person"));
   EXPECT_EQ(one.licence, "CC0");
   // In the middle of the ball, which looks at the camera. Half floats; RGBE for the map.
   EXPECT_EQ(one.mask(16, 16), 255);

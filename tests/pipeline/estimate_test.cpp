@@ -137,8 +137,8 @@ TEST(Estimate, MirroredPhotoHasTheMirroredLight) {
   const Eigen::Vector3d after = centroid(Estimator().estimate(mirrored(lopsided)).faces[0]);
   EXPECT_LT(azimuth_deg(before), -10);
   EXPECT_GT(azimuth_deg(after), 10);
-  // The networks and the mesh's triangles are not symmetric: a few degrees of normals.
-  EXPECT_LE(angle_between_deg(after, {-before.x(), before.y(), before.z()}), 6);
+  // The finder's points are not symmetric, so that both heads are off by a few degrees, in opposite senses; what is lit follows by twice as much.
+  EXPECT_LE(angle_between_deg(after, {-before.x(), before.y(), before.z()}), 10);
 }
 
 TEST(Estimate, TwoFacesAreOrderedAndGetAJointLight) {
