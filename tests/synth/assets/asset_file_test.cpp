@@ -101,7 +101,7 @@ TEST(AssetFile, MapsKeepSunAndShadow) {
   EXPECT_NEAR(found(10, 5, 0), 300000, 300000.0 / 2048);
   // 300,000 is scaled to under 65,504, by 1/8; what is left of float16 there has steps of 8 * 6e-8.
   EXPECT_NEAR(found(11, 5, 0), 0.001, 3e-7 + 0.001 / 2048);
-  const EnvMap& indoors = procedural_maps().front().second;
+  const EnvMap indoors = procedural_maps().front().second;
   EXPECT_NEAR(read.maps[1].second.integral().sum(), indoors.integral().sum(), 1e-3 * indoors.integral().sum());
 }
 
