@@ -37,8 +37,9 @@ struct GeometryMethod {
 // The dense face mesh, posed and rasterised: what the light is read from without a network. The finder must be used by nobody else
 // meanwhile. Throws Error(kModel) when the mesh's file is missing.
 GeometryMethod mesh_method(std::shared_ptr<const face::FaceFinder> finder);
-// The same with another surface put over the mesh's, such as that of a fitted head model (pipeline/head_geometry.h).
+// Puts another surface over the mesh's: normal_cam where it covers the face.
 using SurfaceChange = std::function<void(const face::Face&, const face::Camera&, face::FaceGeometry&)>;
+// The same as mesh_method() with another surface, such as that of a fitted head model (pipeline/head_geometry.h).
 GeometryMethod surface_method(std::string name, std::shared_ptr<const face::FaceFinder> finder, SurfaceChange change);
 
 struct GeometryBenchmark {
@@ -55,11 +56,12 @@ struct CalibrationBin {
 };
 
 // True errors where a method trusts itself most and least: means over the third of the pixels that it states the least errors of, and the third
-// with the largest; the bins hold as many pixels each, one that lies across a border counts by its share. NaN without bins.
+// with the largest.
 struct TrustThirds {
   double best_deg = 0;
   double worst_deg = 0;
 };
+// Of bins that hold as many pixels each; one that lies across a border counts by its share. NaN without bins.
 TrustThirds thirds_of(const std::vector<CalibrationBin>& bins);
 
 struct GeometryScores {

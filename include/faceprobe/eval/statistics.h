@@ -50,8 +50,9 @@ Summary summarize(std::span<const double> values, std::span<const std::string> p
 std::pair<double, double> bootstrap_interval(std::span<const double> values, const Bootstrap& bootstrap,
                                              const std::function<double(std::span<double>)>& of);
 
-// Finite values, one list for each person they are of; lists ascend, and so do they among themselves. Names as for summarize().
+// One list of values for each person; lists ascend, and so do they among themselves.
 using ValuesByPerson = std::vector<std::vector<double>>;
+// The finite ones of `values` by whom they are of. Names as for summarize().
 ValuesByPerson values_by_person(std::span<const double> values, std::span<const std::string> persons);
 // The same as bootstrap_interval(), but drawing as many lists as there are; `of` is given all values of those drawn. NaN twice for fewer than two.
 std::pair<double, double> cluster_interval(const ValuesByPerson& people, const Bootstrap& bootstrap,

@@ -55,10 +55,11 @@ struct MaterialChange {
   std::optional<float> roughness{};
   std::optional<float> index{};
 
-  bool empty() const;
+  bool empty() const;  // whether nothing is to change
   // Empty when usable, else what Material::validate() says of a material that has these.
   std::string validate() const;
 };
+// The material with what is set in `change`.
 Material changed(Material material, const MaterialChange& change);
 
 // Linear colour of "#c02010", which is sRGB as on web pages, or of "0.5,0.02,0.01", which is linear already and may be out of range. Nothing

@@ -23,7 +23,7 @@ namespace faceprobe::synth {
 struct AssetSources {
   std::vector<HeadModel> heads = {};
   std::vector<std::pair<std::string, ByteImage>> skins = {};  // three channels
-  std::vector<std::pair<std::string, EnvMap>> maps = {};
+  std::vector<std::pair<std::string, EnvMap>> maps = {};      // of any size each, scene frame
   std::optional<SkinStatistics> reflectance = {};
 };
 
