@@ -51,10 +51,11 @@ CLI::App* add_pack(CLI::App& synth, Action& action) {
   auto options = std::make_shared<Options>();
   CLI::App* command = synth.add_subcommand("pack", "heads, skins and maps in one small file, for `synth --assets`");
   command->fallthrough(false);
-  command->add_option("--heads", options->heads, "head models, as of `synth`")->type_name("PATH");
-  command->add_option("--skins", options->skins, "folder of skin textures")->type_name("DIR");
-  command->add_option("--maps", options->maps, "folder of HDR environment maps")->type_name("DIR");
-  command->add_option("--reflectance", options->reflectance, "measured skin reflectance")->type_name("FILE");
+  command->add_option("--heads", options->heads, "head models, as of `synth`; default: none")->type_name("PATH");
+  command->add_option("--skins", options->skins, "folder of skin textures; default: none")->type_name("DIR");
+  command->add_option("--maps", options->maps, "folder of HDR environment maps; default: none")->type_name("DIR");
+  command->add_option("--reflectance", options->reflectance, "measured skin reflectance; default: none")
+      ->type_name("FILE");
   command->add_option("--map-height", options->map_height, "maps that are higher are reduced to this, px")
       ->check(CLI::Range(16, 4096))
       ->capture_default_str();

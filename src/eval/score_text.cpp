@@ -16,7 +16,8 @@ std::string interval(const Summary& s, int decimals) {
 
 // "100", "100 of 32 people", "97 of 32 people (3 missing)".
 std::string counted_people(const Summary& s) {
-  const std::string people = s.people < s.count ? " of " + std::to_string(s.people) + " people" : "";
+  const std::string people =
+      s.people < s.count ? " of " + std::to_string(s.people) + (s.people == 1 ? " person" : " people") : "";
   const std::string missing = s.missing > 0 ? " (" + std::to_string(s.missing) + " missing)" : "";
   return std::to_string(s.count) + people + missing;
 }

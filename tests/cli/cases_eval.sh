@@ -36,10 +36,10 @@ case_eval_cases() {
   local arguments=(eval cases --data cases --method "my method=./copy.sh {case} {out}" --threads 1 -o out)
   expect_exit 0 "${arguments[@]}"
   expect_stdout "2 of 2 cases of cases."
-  [ "$(grep -cF '| my method | 2 of 1 people | 0.0 | [-, -] | 0.0 | 0.0 |' stdout)" = 2 ] || fail "the truth has an error under light"
-  expect_stdout "| my method | 2 | 0.00 | [0.00, 0.00] | 0.00 | 0.00 |"
-  expect_stdout "| my method | 2 | 1.000 |"
-  expect_stdout "| ambient | 2 |"
+  [ "$(grep -cF '| my method | 2 of 1 person | 0.0 | [-, -] | 0.0 | 0.0 |' stdout)" = 2 ] || fail "the truth has an error under light"
+  expect_stdout "| my method | 2 of 1 person | 0.00 | [-, -] | 0.00 | 0.00 |"
+  expect_stdout "| my method | 2 of 1 person | 1.000 |"
+  expect_stdout "| ambient | 2 of 1 person |"
   expect_stdout "| faceprobe |"
   [ ! -e pwned ] || fail "a case's name was run"
   local file
