@@ -54,6 +54,20 @@ eval::PaperReport early_report() {
          "decimals": [], "better": [], "rows": []}]}]})");
 }
 
+TEST(MakeReadable, AnEarlierReportOfTheSamePartsIsNotTold) {
+  const std::string head = "Faceprobe 0.1.0; parts measured: relighting.";
+  const std::string rest = "\n\nThe other parts are from an earlier report: ";
+  eval::PaperReport report;
+  report.made_with = head + rest + head + rest + "Faceprobe 0.1.0. 100 photos.";
+  make_readable(report);
+  EXPECT_EQ(report.made_with, head + rest + "Faceprobe 0.1.0. 100 photos.");
+  // Of other parts something is left.
+  report.made_with = head + rest + "Faceprobe 0.1.0; parts measured: directions." + rest + "Faceprobe 0.1.0.";
+  const std::string told = report.made_with;
+  make_readable(report);
+  EXPECT_EQ(report.made_with, told);
+}
+
 TEST(MakeReadable, BringsEarlyReportsUpToDate) {
   eval::PaperReport report = early_report();
   EXPECT_TRUE(report.terms.empty());

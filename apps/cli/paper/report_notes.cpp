@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <sstream>
 #include <string_view>
 
 namespace faceprobe::cli {
@@ -127,11 +128,30 @@ std::string readable_origin(std::string text) {
   return text;
 }
 
+// Of an earlier report that measured only the parts that this one measured again nothing is left: its line goes.
+std::string without_replaced(const std::string& text) {
+  constexpr std::string_view kEarlier = "The other parts are from an earlier report: ";
+  constexpr std::string_view kMeasured = "; parts measured: ";
+  std::string out;
+  std::string last;  // parts that the line before named
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t at = line.find(kMeasured);
+    const std::string parts = at == std::string::npos ? std::string() : line.substr(at + kMeasured.size());
+    if (line.starts_with(kEarlier) && !parts.empty() && parts == last) continue;
+    if (!line.empty()) {
+      out += (out.empty() ? "" : "\n\n") + line;
+      last = parts;
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 void make_readable(eval::PaperReport& report) {
   name_rows(report);
-  report.made_with = readable_origin(std::move(report.made_with));
+  report.made_with = without_replaced(readable_origin(std::move(report.made_with)));
   report.terms.assign(kTerms.begin(), kTerms.end());
   for (eval::ReportSection& section : report.sections) {
     section.notes.clear();
