@@ -75,7 +75,9 @@ title_of() {
 # As a reader would type it.
 command_of() {
   case $1 in
-    geometry | shading) echo "BUILD/bin/faceprobe eval $1 --data FACES --weights net=models/face.safetensors --samples 200" ;;
+    geometry)
+      echo "BUILD/bin/faceprobe eval geometry --data FACES --weights net=models/face.safetensors --head DIR/faces/ict_facekit --samples 200" ;;
+    shading) echo "BUILD/bin/faceprobe eval shading --data FACES --weights net=models/face.safetensors --samples 200" ;;
     highlight_makehuman) echo "bench/makehuman.sh --data DIR" ;;
     highlight_people) echo "bench/people.sh --data DIR --faces FACES --training TRAINING" ;;
     speed) echo "bench/speed.sh" ;;
@@ -92,8 +94,10 @@ command_of() {
 
 run_section() {
   case $1 in
-    geometry | shading)
-      "$build/bin/faceprobe" eval "$1" --data "$faces" --weights net="$root/models/face.safetensors" --samples 200 ;;
+    geometry)
+      "$build/bin/faceprobe" eval geometry --data "$faces" --weights net="$root/models/face.safetensors" --head "$data/faces/ict_facekit" \
+        --samples 200 ;;
+    shading) "$build/bin/faceprobe" eval shading --data "$faces" --weights net="$root/models/face.safetensors" --samples 200 ;;
     highlight_makehuman) "$root/bench/makehuman.sh" --data "$data" "$build" ;;
     highlight_people) "$root/bench/people.sh" --data "$data" --faces "$faces" --training "$training" "$build" ;;
     speed) "$root/bench/speed.sh" ;;
