@@ -117,7 +117,8 @@ void add_synth(CLI::App& program, Action& action) {
   synth::Recipe& recipe = options->recipe;
   command
       ->add_option("--assets", options->sources.packed,
-                   "heads, skins, maps in files of `faceprobe synth pack`; what the options below name comes on top")
+                   "heads, skins, maps in files of `faceprobe synth pack`; what the options below name comes on top; "
+                   "default: none")
       ->type_name("FILE")
       ->check(CLI::ExistingFile);
   command
