@@ -90,7 +90,7 @@ std::vector<std::byte> plain_png(const ByteImage& image) {
     for (const std::uint8_t value : image.row(y)) rows.push_back(static_cast<std::byte>(value));
   }
   Bytes png;
-  for (const std::uint8_t byte : {0x89, 0x50, 0x4E, 0x47, 0x0D, 0x0A, 0x1A, 0x0A}) {
+  for (const int byte : {0x89, 0x50, 0x4E, 0x47, 0x0D, 0x0A, 0x1A, 0x0A}) {
     png.push_back(static_cast<std::byte>(byte));
   }
   put_chunk(png, "IHDR", header);
