@@ -7,7 +7,6 @@
 #include "progress.h"
 #include "synth_assets.h"
 
-#include <malloc.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -80,10 +79,6 @@ int run(Options options) {
                                                   : synth::Split::kAll;
   if (!options.lamp_distance.empty()) options.recipe.lamp_distance_m = two_distances(options.lamp_distance);
   if (const std::string problem = options.recipe.validate(); !problem.empty()) throw Error(ExitCode::kUsage, problem);
-  // A sample is made of pictures of some hundred kB that come and go by the thousand: memory given back to the system between
-  // them would be cleared and mapped again each time, a tenth of the run.
-  mallopt(M_MMAP_THRESHOLD, 256 << 20);
-  mallopt(M_TRIM_THRESHOLD, 1 << 30);
   options.sources.threads = options.threads;
   const synth::Assets assets = load_synth_assets(options.sources);
   Progress progress;
