@@ -5,6 +5,7 @@
 #include "faceprobe/core/sphere_grid.h"
 #include "faceprobe/eval/case_benchmark.h"
 #include "faceprobe/eval/case_export.h"
+#include "faceprobe/eval/case_report.h"
 
 #include <map>
 #include <memory>
@@ -37,17 +38,6 @@ eval::LightMethod of_results(const std::string& name, RunFolders folders) {
 
 Error two_methods(const std::string& name) {
   return {ExitCode::kUsage, "There are two methods called '" + name + "'; give the --method another name."};
-}
-
-std::string missing_text(const std::vector<eval::CaseFailure>& failures) {
-  std::map<std::pair<std::string, std::string>, int> photos;
-  for (const eval::CaseFailure& failure : failures) ++photos[{failure.method, failure.reason}];
-  std::string text;
-  for (const auto& [what, count] : photos) {
-    text += " " + what.first + " has no result for " + std::to_string(count) + (count == 1 ? " photo: " : " photos: ") +
-            what.second + ".";
-  }
-  return text;
 }
 
 }  // namespace
@@ -88,7 +78,8 @@ ProgramMethods program_light_methods(const synth::ShardReader& faces, const Prog
     if (!run.groups.contains("failure"))
       folders[run.method][std::stoi(run.sample)] = work / run.groups.at("folder") / "out";
   }
-  ProgramMethods found{.methods = {}, .missing = missing_text(scores.failures)};
+  ProgramMethods found{.methods = {},
+                       .missing = scores.failures.empty() ? "" : " " + eval::failures_text(scores.failures, "photo")};
   for (const eval::CaseMethod& program : programs)
     found.methods.push_back(of_results(program.name, std::move(folders[program.name])));
   return found;

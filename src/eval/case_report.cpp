@@ -93,19 +93,18 @@ ReportSection highlight_section(const CaseScores& scores, const CaseReport& opti
   return section;
 }
 
-// A reason for each method, with the number of cases: there may be thousands of these.
-std::string missing_text(const std::vector<CaseFailure>& failures) {
+}  // namespace
+
+std::string failures_text(const std::vector<CaseFailure>& failures, const std::string& what) {
   std::map<std::pair<std::string, std::string>, int> cases;
   for (const CaseFailure& failure : failures) ++cases[{failure.method, failure.reason}];
   std::string text;
-  for (const auto& [what, count] : cases) {
-    text += (text.empty() ? "" : " ") + what.first + " has no result for " + std::to_string(count) +
-            (count == 1 ? " case: " : " cases: ") + what.second + ".";
+  for (const auto& [of, count] : cases) {
+    text += (text.empty() ? "" : " ") + of.first + " has no result for " + std::to_string(count) + " " + what +
+            (count == 1 ? ": " : "s: ") + of.second + ".";
   }
   return text;
 }
-
-}  // namespace
 
 std::string CaseReport::validate() const {
   if (data.empty() || work.empty()) return "The report wants both folders, of the cases and of what was written.";
@@ -125,7 +124,7 @@ PaperReport case_report(const CaseScores& scores, const CaseReport& options) {
   ReportSection runs{.id = "runs",
                      .title = "The runs",
                      .text = "Time is that of the first run: what is known is not run again.",
-                     .missing = missing_text(scores.failures)};
+                     .missing = failures_text(scores.failures, "case")};
   add_table(runs, scores.runs, {"seconds", "Seconds a case", 2}, options.ours);
   report.sections.push_back(std::move(runs));
   return report;

@@ -4,6 +4,8 @@
 #include "faceprobe/face/canonical_mesh.h"
 #include "faceprobe/io/data_files.h"
 
+#include <OpenImageIO/strutil.h>
+
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
@@ -23,19 +25,6 @@ constexpr int kFloat = 5126;
 constexpr int kUnsignedShort = 5123;
 constexpr int kVertexData = 34962;
 constexpr int kIndexData = 34963;
-
-std::string base64(std::string_view bytes) {
-  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t bits = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      bits = bits << 8U | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-    for (std::size_t k = 0; k < 4; ++k) text += i + k <= bytes.size() ? kDigits[bits >> (18 - 6 * k) & 63U] : '=';
-  }
-  return text;
-}
 
 Gltf corner_of(const Eigen::RowVector3f& v) { return std::array<float, 3>{v.x(), v.y(), v.z()}; }
 
@@ -76,7 +65,8 @@ class Numbers {
   void finish() {
     Gltf buffer;
     buffer["byteLength"] = bytes_.size();
-    buffer["uri"] = "data:application/octet-stream;base64," + base64(bytes_);
+    buffer["uri"] =
+        "data:application/octet-stream;base64," + OIIO::Strutil::base64_encode({bytes_.data(), bytes_.size()});
     gltf_["buffers"].push_back(std::move(buffer));
   }
 

@@ -4,13 +4,13 @@
 #include "faceprobe/core/version.h"
 #include "faceprobe/pipeline/outputs.h"
 #include "faceprobe/pipeline/overview.h"
+#include "pipeline/documented_fields.h"
 #include "pipeline/portrait.h"
 
 #include <gtest/gtest.h>
 #include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <regex>
 #include <set>
 #include <utility>
 
@@ -19,6 +19,9 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using testing::add_fields;
+using testing::documented_fields;
+using testing::Field;
 using testing::portrait;
 using testing::portrait_estimate;
 using testing::twice_side_by_side;
@@ -99,45 +102,6 @@ TEST(Report, HoldsTheDocumentedFields) {
   EXPECT_GT(report.at("timings").at("total_seconds").get<double>(), 0);
 }
 
-// An object of the report as docs/report.md names it, and one of its fields.
-using Field = std::pair<std::string, std::string>;
-
-// Objects go by the last name on the way to them.
-void add_fields(const json& value, const std::string& object, std::set<Field>& fields) {
-  if (value.is_array()) {
-    for (const json& item : value) add_fields(item, object, fields);
-  }
-  if (!value.is_object()) return;
-  for (const auto& [name, item] : value.items()) {
-    fields.emplace(object, name);
-    add_fields(item, name, fields);
-  }
-}
-
-std::vector<std::string> names_in(const std::string& text) {
-  static const std::regex name("`([^`]+)`");
-  std::vector<std::string> names;
-  for (std::sregex_iterator it(text.begin(), text.end(), name), end; it != end; ++it) names.push_back((*it)[1].str());
-  return names;
-}
-
-// Headings name the objects, the first column of their tables the fields.
-std::set<Field> documented_fields() {
-  const fs::path page = fs::path(__FILE__).parent_path().parent_path().parent_path() / "docs" / "report.md";
-  std::ifstream file(page);
-  EXPECT_TRUE(file.is_open()) << page;
-  std::set<Field> fields;
-  std::vector<std::string> objects;
-  for (std::string line; std::getline(file, line);) {
-    if (line.rfind("## ", 0) == 0) objects = names_in(line);
-    if (line.rfind("| `", 0) != 0) continue;
-    for (const std::string& name : names_in(line.substr(0, line.find('|', 1)))) {
-      for (const std::string& object : objects) fields.emplace(object, name);
-    }
-  }
-  return fields;
-}
-
 // Both ways: a field that is not documented, and a documented one that is not there.
 TEST(Report, EveryFieldStandsInTheDocumentation) {
   Estimate estimate = portrait_estimate();
@@ -148,7 +112,7 @@ TEST(Report, EveryFieldStandsInTheDocumentation) {
   const std::vector<JointPhoto> photos = {{"a.jpg", "12ab", 1}};
   add_fields(json::parse(joint_report_json(estimate.faces[0], photos, EstimateOptions())), "joint/report.json", written);
   ASSERT_GT(written.size(), 60U);
-  const std::set<Field> documented = documented_fields();
+  const std::set<Field> documented = documented_fields("report.md");
   for (const auto& [object, name] : written)
     EXPECT_TRUE(documented.contains({object, name})) << object << '.' << name << " is not in docs/report.md";
   for (const auto& [object, name] : documented)

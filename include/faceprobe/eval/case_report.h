@@ -13,6 +13,7 @@
 #include <functional>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace faceprobe::eval {
 
@@ -27,6 +28,10 @@ struct CaseReport {
 
   std::string validate() const;
 };
+
+// A sentence for each method and reason, with the number of cases, which `what` names in the singular; empty without failures. There may be
+// thousands of cases with one reason.
+std::string failures_text(const std::vector<CaseFailure>& failures, const std::string& what);
 
 // Sections "relighting", "maps", "main_light" and "highlights", those that have rows, and "runs": seconds, and what is missing with its reasons. A
 // method has a black cell where it wrote nothing. Throws Error(kUsage) for options that do not validate, Error(kInput) for a case that can no longer
