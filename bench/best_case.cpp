@@ -85,8 +85,8 @@ int run(const std::filesystem::path& data, int maps, float noise) {
       const Eigen::Matrix3f turn =
           Eigen::AngleAxisf(static_cast<float>(radians(yaw_deg)), Eigen::Vector3f::UnitY()).toRotationMatrix();
       const Eigen::MatrixX3f truth = grid_from_env_map(rotate(map, turn), grid);
-      face.highlight = transport.highlight * truth;
-      face.shading = transport.diffuse * truth;
+      face.highlight = transport.highlight() * truth;
+      face.shading = transport.diffuse() * truth;
       add_noise(face.highlight, noise, random);
       add_noise(face.shading, noise, random);
       for (std::size_t k = 0; k < rows.size(); ++k) {

@@ -73,8 +73,8 @@ lighting::Observations solve_observations(int patches) {
   const Eigen::MatrixX3f light = truth(grid);
   {
     const lighting::Transport transport = lighting::build_transport(face, grid);
-    face.highlight = transport.highlight * light;
-    face.shading = transport.diffuse * light;
+    face.highlight = transport.highlight() * light;
+    face.shading = transport.diffuse() * light;
   }
   Random random({29, static_cast<std::uint64_t>(patches)});
   add_noise(random, face.highlight);

@@ -41,8 +41,8 @@ Products make_products(const lighting::Observations& observations, int nside, in
   const Eigen::Index patches = observations.count();
   Products products;
   products.shading_rows = static_cast<int>(patches);
-  products.transport.resize(2 * patches, transport.diffuse.cols());
-  products.transport << transport.diffuse, transport.highlight;
+  products.transport.resize(2 * patches, transport.rows.cols());
+  products.transport << transport.diffuse(), transport.highlight();
   products.seen.resize(2 * patches, 3);
   products.seen << observations.shading, observations.highlight;
   products.seen = products.seen.cwiseMax(kLeastSeen);
@@ -54,16 +54,13 @@ Products::Result by_library(const Products& products, int threads) {
   lighting::RichardsonLucyOptions options;
   options.unobserved_share = 0;
   options.threads = threads;
-  // What a solve has at hand is put together before the clock starts; the shading's rows, too, are a matrix of their own there.
-  const lighting::RowMatrix shading = products.transport.topRows(products.shading_rows);
   const Eigen::VectorXf weight = Eigen::VectorXf::Ones(products.transport.rows());
   const Stopwatch watch;
   for (const Products::Stage& stage : products.stages()) {
     options.iterations = stage.iterations;
     const Eigen::MatrixXf start = Eigen::MatrixXf::Ones(products.transport.cols(), stage.channels);
-    const bool part = stage.rows == products.shading_rows;
     const lighting::RichardsonLucyResult solved = lighting::richardson_lucy(
-        part ? shading : products.transport, weight.head(stage.rows), products.observed(stage), {}, start, options);
+        products.transport.topRows(stage.rows), weight.head(stage.rows), products.observed(stage), {}, start, options);
     result.light.emplace_back(solved.estimate.cast<double>());
   }
   result.seconds = watch.seconds();

@@ -34,7 +34,8 @@ Block block_of(int number, Eigen::Index rows) {
 
 // sum over rows of ratios(block) back through the transport; `ratios` may look at the block's own prediction.
 template <class Ratios>
-Eigen::MatrixXf back_projected(const RowMatrix& transport, Eigen::Index channels, int threads, const Ratios& ratios) {
+Eigen::MatrixXf back_projected(const Eigen::Ref<const RowMatrix>& transport, Eigen::Index channels, int threads,
+                               const Ratios& ratios) {
   std::vector<Eigen::MatrixXf> partial(static_cast<std::size_t>(blocks(transport.rows())));
   parallel_for(static_cast<int>(partial.size()), threads, [&](int first, int last) {
     for (int b = first; b < last; ++b) {
@@ -63,7 +64,7 @@ std::string RichardsonLucyOptions::validate() const {
   return {};
 }
 
-RichardsonLucyResult richardson_lucy(const RowMatrix& transport, const Eigen::VectorXf& weight,
+RichardsonLucyResult richardson_lucy(const Eigen::Ref<const RowMatrix>& transport, const Eigen::VectorXf& weight,
                                      const Eigen::MatrixXf& observed,
                                      const Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>& lower_bound,
                                      const Eigen::MatrixXf& start, const RichardsonLucyOptions& options) {

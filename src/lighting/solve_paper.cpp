@@ -42,7 +42,7 @@ RowMatrix phong_kernel(const TracedMap& traced, const SphereGrid& grid, int thre
 
 // The paper's map has no scale. Of one gain for all channels, the one whose light gives the face as much shading as it has; 1 without shading.
 void bring_to_shading(const Observations& observations, const SphereGrid& grid, int threads, Light& light) {
-  Eigen::MatrixXf predicted = build_transport(observations, grid, threads).diffuse * light.radiance;
+  Eigen::MatrixXf predicted = build_transport(observations, grid, threads).diffuse() * light.radiance;
   const float sum = (observations.weight.transpose() * predicted).sum();
   const float found = (observations.weight.transpose() * observations.shading).sum();
   const float gain = sum > 0 && found > 0 ? found / sum : 1.0F;

@@ -22,7 +22,7 @@ using Flags = Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>;
 
 // The two kinds of rows, each weighed so that its data carry the influence the options give it.
 struct Rows {
-  RowMatrix transport;  // highlight rows, then shading rows
+  Eigen::Ref<const RowMatrix> transport;  // highlight rows, then shading rows; a view of what build_transport() made
   Eigen::VectorXf weight;
   Eigen::MatrixX3f data;
   Flags bound;  // #rows x 3
@@ -43,16 +43,15 @@ RichardsonLucyOptions rl_options(const SolveOptions& options, int iterations) {
 
 // Brings the highlights to the scale of the shading: h = gain * S e + leak * s, both fitted against the light that the shading
 // alone gives. That light is blurred, which moves energy around but hardly changes its sum, so sums are what is compared.
-void fit_highlights(const Observations& o, const RowMatrix& highlight_rows, const RowMatrix& shading_rows,
-                    const SolveOptions& options, const Eigen::MatrixXf& start, float level, Light& light,
-                    Eigen::MatrixX3f& highlight) {
+void fit_highlights(const Observations& o, const Transport& transport, const SolveOptions& options,
+                    const Eigen::MatrixXf& start, float level, Light& light, Eigen::MatrixX3f& highlight) {
   constexpr int kSmoothIterations = 10;
   const Eigen::VectorXf shading = o.shading * kLuminanceWeights;
   const Flags bound = o.clipped.rowwise().any();
   RichardsonLucyOptions plain = rl_options(options, kSmoothIterations);
   plain.prior_weight = 0;  // which keeps the flux, and that is all that counts here
-  const RichardsonLucyResult smooth = richardson_lucy(shading_rows, o.weight, shading, bound, start, plain);
-  const Eigen::VectorXf expected = highlight_rows * smooth.estimate.col(0);
+  const RichardsonLucyResult smooth = richardson_lucy(transport.diffuse(), o.weight, shading, bound, start, plain);
+  const Eigen::VectorXf expected = transport.highlight() * smooth.estimate.col(0);
   // Clipped pixels say neither how bright nor how leaky; with all clipped there is nothing to fit.
   Eigen::VectorXf weight = o.weight;
   std::vector<float> found_ratio;
@@ -90,21 +89,15 @@ Rows stack(const Observations& o, const Transport& transport, const SolveOptions
   const bool use_highlights = options.highlight_weight > 0 && highlight_flux > 0;
   const bool use_shading = shading_flux > 0 && (options.shading_weight > 0 || !use_highlights);
   const Eigen::Index n = o.count();
-  Rows rows;
   const Eigen::Index total = (use_highlights ? n : 0) + (use_shading ? n : 0);
-  rows.transport.resize(total, transport.diffuse.cols());
-  rows.weight.resize(total);
-  rows.data.resize(total, 3);
-  rows.bound.resize(total, 3);
+  Rows rows{transport.rows.middleRows(use_highlights ? 0 : n, total), Eigen::VectorXf(total),
+            Eigen::MatrixX3f(total, 3), Flags(total, 3), use_highlights ? n : 0};
   if (use_highlights) {
-    rows.highlights = n;
-    rows.transport.topRows(n) = transport.highlight;
     rows.weight.head(n) = o.weight * (options.highlight_weight / highlight_flux);
     rows.data.topRows(n) = o.highlight;
     rows.bound.topRows(n) = o.clipped;
   }
   if (use_shading) {
-    rows.transport.bottomRows(n) = transport.diffuse;
     rows.weight.tail(n) = o.weight * (std::max(options.shading_weight, 1e-3F) / shading_flux);
     rows.data.bottomRows(n) = o.shading;
     rows.bound.bottomRows(n) = o.clipped;
@@ -164,7 +157,7 @@ Eigen::VectorXf expected_start(const Eigen::MatrixX3f& expected, const Transport
                                float level) {
   constexpr float kDarkest = 1e-3F;  // of the level
   const Eigen::VectorXf luminance = expected * kLuminanceWeights;
-  const float predicted = weighted_sum(o.weight, transport.diffuse * luminance);
+  const float predicted = weighted_sum(o.weight, transport.diffuse() * luminance);
   const float found = weighted_sum(o.weight, o.shading * kLuminanceWeights);
   return (luminance * (predicted > 0 ? found / predicted : 1.0F)).cwiseMax(kDarkest * level);
 }
@@ -215,9 +208,9 @@ Light solve_transport(const Observations& observations, const SolveOptions& opti
     // Never silenced: two lamps from opposite sides are misfit too, and they are data.
     patches.weight = patches.weight.cwiseProduct(fit.trust.cwiseMax(0.2F));
     start = has_expected ? expected_start(expected, transport, patches, level) : smooth_radiance(fit, grid, level);
-    fit_highlights(patches, transport.highlight, transport.diffuse, options, start, level, light, patches.highlight);
+    fit_highlights(patches, transport, options, start, level, light, patches.highlight);
   } else {
-    const float per_unit = weighted_sum(patches.weight, transport.highlight.rowwise().sum());
+    const float per_unit = weighted_sum(patches.weight, transport.highlight().rowwise().sum());
     level = per_unit > 0 ? weighted_sum(patches.weight, patches.highlight * kLuminanceWeights) / per_unit : 0;
     start.setConstant(level);
     has_expected = false;  // without shading there is no scale to bring it to

@@ -28,10 +28,14 @@ Transport build_transport(const Observations& observations, const SphereGrid& gr
   const bool shadowed = observations.horizon.rows() > 0;
   const std::vector<HorizonPlace> places = shadowed ? horizon_places(grid.directions()) : std::vector<HorizonPlace>();
   Transport transport;
-  transport.highlight = RowMatrix::Zero(observations.count(), grid.cell_count());
-  transport.diffuse = RowMatrix::Zero(observations.count(), grid.cell_count());
+  transport.rows.resize(2 * observations.count(), grid.cell_count());
   parallel_for(static_cast<int>(observations.count()), threads, [&](int first, int last) {
     for (int i = first; i < last; ++i) {
+      // Cleared here, so that the threads share the cost of fresh pages.
+      auto highlight = transport.rows.row(i);
+      auto diffuse = transport.rows.row(observations.count() + i);
+      highlight.setZero();
+      diffuse.setZero();
       const Eigen::Vector3f normal = observations.normal.row(i).transpose();
       const Eigen::Vector3f view = observations.view.row(i).transpose();
       const Microfacet skin = skin_of(observations, i, fresnel);
@@ -44,8 +48,8 @@ Transport build_transport(const Observations& observations, const SphereGrid& gr
         const float visible =
             solid_angle * (shadowed ? profile_visibility(profile, places[static_cast<std::size_t>(j)]) : 1.0F);
         if (visible <= 0.0F) continue;
-        transport.highlight(i, j) = visible * specular_lobe(normal, view, light, skin);
-        transport.diffuse(i, j) = visible * cosine / static_cast<float>(kPi);
+        highlight[j] = visible * specular_lobe(normal, view, light, skin);
+        diffuse[j] = visible * cosine / static_cast<float>(kPi);
       }
     }
   });

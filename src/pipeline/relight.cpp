@@ -126,15 +126,15 @@ Change change_of(const FaceEstimate& face, const Eigen::MatrixX3f& radiance, con
   const Eigen::MatrixX3f before =
       grid_from_grid(face.light.radiance, SphereGrid::of_cells(face.light.radiance.rows()), grid);
   const Eigen::MatrixX3f after = grid_from_grid(radiance, SphereGrid::of_cells(radiance.rows()), grid);
-  const Eigen::MatrixX3f old_shading = transport.diffuse * before;
-  const Eigen::MatrixX3f new_shading = transport.diffuse * after;
+  const Eigen::MatrixX3f old_shading = transport.diffuse() * before;
+  const Eigen::MatrixX3f new_shading = transport.diffuse() * after;
   const float old_floor = std::max(1e-9F, kLeastShare * old_shading.mean());
   const float new_floor = kLeastShare * new_shading.mean();
   const Eigen::MatrixX3f factor =
       ((new_shading.array() + new_floor) / (old_shading.array() + old_floor)).min(options.most_gain).matrix();
-  const Eigen::MatrixX3f old_lobe = transport.highlight * before;
+  const Eigen::MatrixX3f old_lobe = transport.highlight() * before;
   const float gloss = gloss_of(face, small, old_lobe, window);
-  const Eigen::MatrixX3f lobe = gloss * (transport.highlight * after - factor.cwiseProduct(old_lobe));
+  const Eigen::MatrixX3f lobe = gloss * (transport.highlight() * after - factor.cwiseProduct(old_lobe));
   const Window back = window.back_to(crop.width, crop.height);
   return {resampled(spread(small, factor, window.width, window.height), back, Outside::kEdge),
           resampled(spread(small, lobe, window.width, window.height), back, Outside::kEdge)};

@@ -67,8 +67,8 @@ std::string known_light() {
   light.row(grid.cell_of(towards.cast<float>())).setConstant(200);
   lighting::Observations ball = half_ball();
   const lighting::Transport transport = lighting::build_transport(ball, grid);
-  ball.highlight = transport.highlight * light;
-  ball.shading = transport.diffuse * light;
+  ball.highlight = transport.highlight() * light;
+  ball.shading = transport.diffuse() * light;
   const lighting::Light found = lighting::solve(ball, {});
   Eigen::Index brightest = 0;
   found.radiance.rowwise().sum().maxCoeff(&brightest);

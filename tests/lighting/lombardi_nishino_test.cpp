@@ -129,7 +129,7 @@ TEST(LombardiNishino, EnergyIsRight) {
   const SphereGrid grid(8);
   const Observations face = face_under(direction_from_angles(30, 20), 0.1F, {1.3F, 1, 0.6F});
   const JointEstimate found = solve_lombardi_nishino(face);
-  const Eigen::MatrixX3f shading = build_transport(face, grid).diffuse * found.radiance;
+  const Eigen::MatrixX3f shading = build_transport(face, grid).diffuse() * found.radiance;
   // The lobe's strength has a prior and is not the face's: what it gets wrong, the light makes good.
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(shading.col(c).sum() / face.shading.col(c).sum(), 1, 0.1);
 }

@@ -14,7 +14,7 @@ using testing::light_up;
 struct Problem {
   SphereGrid grid{8};
   Observations face = ellipsoid_face(24);
-  RowMatrix transport = build_transport(face, grid).highlight;
+  RowMatrix transport = build_transport(face, grid).highlight();
   Eigen::MatrixXf start = Eigen::MatrixXf::Constant(grid.cell_count(), 3, 0.5F);
 };
 

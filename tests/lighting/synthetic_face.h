@@ -34,8 +34,8 @@ inline Observations ellipsoid_face(int across = 40) {
 inline void light_up(Observations& face, const SphereGrid& grid, const Eigen::MatrixX3f& radiance, float noise = 0,
                      unsigned seed = 1) {
   const Transport transport = build_transport(face, grid);
-  face.highlight = transport.highlight * radiance;
-  face.shading = transport.diffuse * radiance;
+  face.highlight = transport.highlight() * radiance;
+  face.shading = transport.diffuse() * radiance;
   std::mt19937 random(seed);
   std::normal_distribution<float> normal(0.0F, noise);
   if (noise <= 0) return;

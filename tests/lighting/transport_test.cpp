@@ -11,7 +11,7 @@ namespace {
 TEST(Transport, DiffuseFurnaceIsOne) {
   // A convex surface under uniform radiance 1: shading 1 wherever it faces.
   const SphereGrid grid(16);
-  const RowMatrix rows = build_transport(testing::ellipsoid_face(12), grid).diffuse;
+  const RowMatrix rows = build_transport(testing::ellipsoid_face(12), grid).diffuse();
   const Eigen::VectorXf sums = rows.rowwise().sum();
   EXPECT_NEAR(sums.minCoeff(), 1.0F, 0.005F);  // cosine over 3072 cells
   EXPECT_NEAR(sums.maxCoeff(), 1.0F, 0.005F);
@@ -24,7 +24,7 @@ TEST(Transport, MirrorLightPeaksInTheMirrorDirection) {
   one.normal.row(0) = direction_from_angles(20, 10).transpose().cast<float>();
   one.view.row(0) = Eigen::RowVector3f(0, 0, 1);
   one.roughness[0] = 0.1F;
-  const RowMatrix rows = build_transport(one, grid).highlight;
+  const RowMatrix rows = build_transport(one, grid).highlight();
   Eigen::Index best = 0;
   rows.row(0).maxCoeff(&best);
   const Eigen::Vector3d n = one.normal.row(0).transpose().cast<double>();
@@ -39,8 +39,8 @@ TEST(Transport, FresnelIsConstantAtNormalIncidenceAndGrowsFromThere) {
   two.normal.row(0) = Eigen::RowVector3f(0, 0, 1);
   two.normal.row(1) = direction_from_angles(75, 0).transpose().cast<float>();
   two.view.rowwise() = Eigen::RowVector3f(0, 0, 1);
-  const RowMatrix with = build_transport(two, grid).highlight;
-  const RowMatrix without = build_transport(two, grid, 0, Fresnel::kConstant).highlight;
+  const RowMatrix with = build_transport(two, grid).highlight();
+  const RowMatrix without = build_transport(two, grid, 0, Fresnel::kConstant).highlight();
   for (int patch = 0; patch < 2; ++patch) {
     for (int j = 0; j < grid.cell_count(); ++j) {
       if (without(patch, j) < 1e-20F)
@@ -65,7 +65,7 @@ TEST(Transport, HorizonCutsWhatItShould) {
   // A wall to the right whose top is 45 degrees up, nothing elsewhere.
   one.horizon.setConstant(1, kHorizonAzimuths, -1e6F);
   for (const int a : {kHorizonAzimuths - 2, kHorizonAzimuths - 1, 0, 1, 2}) one.horizon(0, a) = 1.0F;
-  const RowMatrix rows = build_transport(one, grid).diffuse;
+  const RowMatrix rows = build_transport(one, grid).diffuse();
   EXPECT_EQ(rows(0, grid.cell_of(Eigen::Vector3f(1, 0, 0.7F))), 0.0F);
   EXPECT_GT(rows(0, grid.cell_of(Eigen::Vector3f(1, 0, 1.6F))), 0.0F);
   EXPECT_GT(rows(0, grid.cell_of(Eigen::Vector3f(-1, 0, 0.7F))), 0.0F);
@@ -74,7 +74,7 @@ TEST(Transport, HorizonCutsWhatItShould) {
 TEST(Transport, SameForAnyNumberOfThreads) {
   const SphereGrid grid(4);
   const Observations face = testing::ellipsoid_face(12);
-  EXPECT_TRUE(build_transport(face, grid, 1).highlight == build_transport(face, grid, 3).highlight);
+  EXPECT_TRUE(build_transport(face, grid, 1).highlight() == build_transport(face, grid, 3).highlight());
 }
 
 TEST(Transport, RefusesBrokenObservations) {

@@ -47,7 +47,7 @@ struct RichardsonLucyResult {
 // `transport`: #rows x #columns, >= 0. `weight`: #rows. `observed`: #rows x #channels, >= 0. `lower_bound`: the same shape, or
 // empty. `start`: #columns x #channels, > 0. Bitwise the same for any number of threads.
 // Throws std::invalid_argument when the shapes disagree or the options do not validate.
-RichardsonLucyResult richardson_lucy(const RowMatrix& transport, const Eigen::VectorXf& weight,
+RichardsonLucyResult richardson_lucy(const Eigen::Ref<const RowMatrix>& transport, const Eigen::VectorXf& weight,
                                      const Eigen::MatrixXf& observed,
                                      const Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>& lower_bound,
                                      const Eigen::MatrixXf& start, const RichardsonLucyOptions& options);

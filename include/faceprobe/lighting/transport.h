@@ -16,9 +16,13 @@ namespace faceprobe::lighting {
 
 using RowMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
+// Both matrices in one block of memory, as a solver takes them: it reads all of it in every step, and a copy costs as much as several steps.
 struct Transport {
-  RowMatrix highlight;  // S, #patches x #cells
-  RowMatrix diffuse;    // D, #patches x #cells
+  RowMatrix rows;  // S, then D: 2 #patches x #cells
+
+  Eigen::Index patches() const { return rows.rows() / 2; }
+  auto highlight() const { return rows.topRows(patches()); }   // S, #patches x #cells; a view
+  auto diffuse() const { return rows.bottomRows(patches()); }  // D, #patches x #cells; a view
 };
 
 // Schlick's, or as at normal incidence everywhere, as the paper's lobes are: to measure what the term is worth.
