@@ -2,6 +2,8 @@
 
 #include "train/smooth_error.h"
 
+#include <vector>
+
 namespace faceprobe::train {
 namespace {
 
@@ -29,11 +31,11 @@ torch::Tensor similarity(const torch::Tensor& estimate, const torch::Tensor& tru
   constexpr double kC2 = 0.03 * 0.03;
   const torch::Tensor x = estimate.mean(1, true) * mask;
   const torch::Tensor y = truth.mean(1, true) * mask;
-  const torch::Tensor means = window_mean(torch::cat({x, y, x * x, y * y, x * y}, 1));
-  const torch::Tensor mx = means.narrow(1, 0, 1);
-  const torch::Tensor my = means.narrow(1, 1, 1);
-  const torch::Tensor spread = means.narrow(1, 2, 1) + means.narrow(1, 3, 1) - mx * mx - my * my;
-  const torch::Tensor shared = means.narrow(1, 4, 1) - mx * my;
+  const std::vector<torch::Tensor> means = window_mean(torch::cat({x, y, x * x, y * y, x * y}, 1)).split(1, 1);
+  const torch::Tensor& mx = means[0];
+  const torch::Tensor& my = means[1];
+  const torch::Tensor spread = means[2] + means[3] - mx * mx - my * my;
+  const torch::Tensor shared = means[4] - mx * my;
   const torch::Tensor map = (2 * mx * my + kC1) * (2 * shared + kC2) / ((mx * mx + my * my + kC1) * (spread + kC2));
   return weighted_mean(map, mask);
 }

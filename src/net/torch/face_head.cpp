@@ -5,6 +5,7 @@
 #include "net/torch/highlight_head.h"
 
 #include <stdexcept>
+#include <vector>
 
 namespace faceprobe::net {
 
@@ -27,18 +28,18 @@ FaceSurface surface_from_raw(const torch::Tensor& raw, const torch::Tensor& gain
   }
   const torch::Tensor full = raw.to(torch::kFloat).clamp(-Head::kLargestRaw, Head::kLargestRaw);
   const torch::Tensor towards_viewer = torch::tensor({0.0F, 0.0F, 1.0F}, full.options()).view({1, 3, 1, 1});
-  const torch::Tensor free = full.narrow(1, Out::kNormal, 3) + towards_viewer;
+  // Split, as the highlight's channels are (highlight_head.cpp).
+  const std::vector<torch::Tensor> parts = full.split_with_sizes({Out::kNormal, 3, 1, 1, 1, 3, kRegionCount}, 1);
+  const torch::Tensor free = parts[1] + towards_viewer;
   const torch::Tensor length = free.square().sum(1, true).clamp_min(Out::kShortest * Out::kShortest).sqrt();
-  const auto logarithm = [&](int channel) {
-    return full.narrow(1, channel, 1).clamp(-Out::kLargestLog, Out::kLargestLog);
-  };
-  const torch::Tensor colour = torch::softplus(full.narrow(1, Out::kShading + 1, 3)) + Head::kColourFloor;
+  const auto logarithm = [](const torch::Tensor& x) { return x.clamp(-Out::kLargestLog, Out::kLargestLog); };
+  const torch::Tensor colour = torch::softplus(parts[5]) + Head::kColourFloor;
   return {free / length,
-          Out::kUsualError * logarithm(Out::kSpread).exp(),
-          full.narrow(1, Out::kDepth, 1),
-          logarithm(Out::kShading) - gain.log(),
+          Out::kUsualError * logarithm(parts[2]).exp(),
+          parts[3],
+          logarithm(parts[4]) - gain.log(),
           colour / colour.mean(1, true),
-          full.narrow(1, Out::kRegion, kRegionCount)};
+          parts[6]};
 }
 
 }  // namespace faceprobe::net

@@ -3,6 +3,7 @@
 #include "faceprobe/core/color.h"
 
 #include <stdexcept>
+#include <vector>
 
 namespace faceprobe::net {
 namespace {
@@ -43,8 +44,10 @@ torch::Tensor highlight_from_raw(const torch::Tensor& raw, const torch::Tensor& 
   const torch::Tensor light = linear.clamp_min(0);
   // Mixed precision ends here: the bound holds only in the picture's own.
   const torch::Tensor full = raw.to(linear.scalar_type()).clamp(-Head::kLargestRaw, Head::kLargestRaw);
-  const torch::Tensor amount = torch::softplus(full.narrow(1, 0, 1) + Head::kAmountOffset);
-  const torch::Tensor unscaled = torch::softplus(full.narrow(1, 1, 3)) + Head::kColourFloor;
+  // Split, not narrowed: the way back joins the parts once, where each narrow() would fill and add a tensor as large as all of them.
+  const std::vector<torch::Tensor> parts = full.split_with_sizes({1, 3}, 1);
+  const torch::Tensor amount = torch::softplus(parts[0] + Head::kAmountOffset);
+  const torch::Tensor unscaled = torch::softplus(parts[1]) + Head::kColourFloor;
   const torch::Tensor colour = unscaled / unscaled.mean(1, true);
   return smooth_min(luminance(light) * amount * colour, light);
 }
