@@ -1,14 +1,16 @@
-#include "faceprobe/train/train.h"
+#include "train/curves.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <string>
 
 namespace faceprobe::train {
 namespace {
 
-constexpr int kWidth = 960;
-constexpr int kHeight = 420;
+constexpr int kWidth = kCurveWidth;
+constexpr int kHeight = kCurveHeight;
 constexpr int kLeft = 60, kRight = 16, kTop = 16, kBottom = 34;
 using Colour = std::array<std::uint8_t, 3>;
 
@@ -75,14 +77,11 @@ struct Axes {
   }
 };
 
-struct Point {
-  double step, value;
-};
-
-void draw_series(ByteImage& canvas, const std::vector<Point>& points, const Axes& axes, const Colour& colour) {
+void draw_series(ByteImage& canvas, const Curve& curve, const Axes& axes) {
+  const std::vector<CurvePoint>& points = curve.points;
   for (std::size_t i = 1; i < points.size(); ++i) {
     line(canvas, axes.x(points[i - 1].step), axes.y(points[i - 1].value), axes.x(points[i].step),
-         axes.y(points[i].value), colour);
+         axes.y(points[i].value), curve.colour);
   }
 }
 
@@ -102,8 +101,8 @@ void draw_grid(ByteImage& canvas, const Axes& axes) {
   }
 }
 
-void frame(std::vector<Point>& points, double& low, double& high) {
-  for (const Point& p : points) {
+void frame(const std::vector<CurvePoint>& points, double& low, double& high) {
+  for (const CurvePoint& p : points) {
     if (!(p.value > 0)) continue;
     low = std::min(low, p.value);
     high = std::max(high, p.value);
@@ -112,56 +111,23 @@ void frame(std::vector<Point>& points, double& low, double& high) {
 
 }  // namespace
 
-std::string to_csv(const std::vector<TrainRow>& rows) {
-  std::string csv =
-      "step,loss,learning_rate,samples_per_second,rmse_skin,rmse_whole,black_skin,black_whole,normal_deg,region_share,"
-      "shading,colour_deg\n";
-  std::array<char, 256> line{};
-  for (const TrainRow& row : rows) {
-    std::snprintf(line.data(), line.size(), "%lld,%.6g,%.6g,%.2f", static_cast<long long>(row.step), row.loss,
-                  row.learning_rate, row.samples_per_second);
-    csv += line.data();
-    if (row.validated) {
-      std::snprintf(line.data(), line.size(), ",%.4f,%.4f,%.4f,%.4f,%.3f,%.4f,%.4f,%.3f", row.validation.skin,
-                    row.validation.whole, row.validation.black_skin, row.validation.black_whole,
-                    row.validation.normal_deg, row.validation.region_share, row.validation.shading,
-                    row.validation.colour_deg);
-      csv += line.data();
-    } else {
-      csv += ",,,,,,,,";
-    }
-    csv += '\n';
-  }
-  return csv;
-}
-
-ByteImage draw_curves(const std::vector<TrainRow>& rows) {
-  ByteImage canvas(kWidth, 2 * kHeight, 3, 255);
-  if (rows.empty()) return canvas;
-  std::vector<Point> loss, skin, whole;
-  for (const TrainRow& row : rows) {
-    const auto step = static_cast<double>(row.step);
-    loss.push_back({step, row.loss});
-    if (!row.validated) continue;
-    skin.push_back({step, row.validation.skin});
-    whole.push_back({step, row.validation.whole});
-  }
-  // Above the loss, below the errors on the skin (red) and on the whole picture (blue).
-  ByteImage half(kWidth, kHeight, 3, 255);
-  const auto panel = [&](std::vector<std::pair<std::vector<Point>*, Colour>> series, int top) {
-    std::fill(half.values().begin(), half.values().end(), std::uint8_t{255});
+ByteImage draw_panels(const std::vector<CurvePanel>& panels, std::int64_t last_step) {
+  ByteImage canvas(kWidth, static_cast<int>(panels.size()) * kHeight, 3, 255);
+  ByteImage part(kWidth, kHeight, 3, 255);
+  int top = 0;
+  for (const CurvePanel& panel : panels) {
+    std::ranges::fill(part.values(), std::uint8_t{255});
     double low = 1e30;
     double high = 0;
-    for (auto& [points, colour] : series) frame(*points, low, high);
-    if (high > 0) {
-      const Axes axes{static_cast<double>(rows.back().step), 0.9 * low, 1.1 * high};
-      draw_grid(half, axes);
-      for (auto& [points, colour] : series) draw_series(half, *points, axes, colour);
+    for (const Curve& curve : panel) frame(curve.points, low, high);
+    if (high > 0 && last_step > 0) {
+      const Axes axes{static_cast<double>(last_step), 0.9 * low, 1.1 * high};
+      draw_grid(part, axes);
+      for (const Curve& curve : panel) draw_series(part, curve, axes);
     }
-    std::copy(half.values().begin(), half.values().end(), canvas.pixel(0, top));
-  };
-  panel({{&loss, {30, 30, 30}}}, 0);
-  panel({{&whole, {40, 80, 200}}, {&skin, {200, 50, 40}}}, kHeight);
+    std::ranges::copy(part.values(), canvas.pixel(0, top));
+    top += kHeight;
+  }
   return canvas;
 }
 

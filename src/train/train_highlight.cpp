@@ -7,15 +7,14 @@
 #include "net/torch/torch_device.h"
 #include "net/torch/weights.h"
 #include "net/torch/widen.h"
-#include "train/channels_last.h"
 #include "train/checkpoint.h"
+#include "train/descent.h"
 #include "train/model.h"
-#include "train/schedule.h"
 #include "train/to_device.h"
+#include "train/train_log.h"
 #include "train/validate.h"
 
 #include <chrono>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -25,6 +24,7 @@ namespace {
 constexpr std::int64_t kRowEvery = 50;  // steps
 constexpr int kPictureRows = 8;
 constexpr int kMostWorkers = 256;
+constexpr const char* kRowsTable = "rows";
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
@@ -36,31 +36,49 @@ std::string run_json(const TrainRun& run, const synth::ShardReader& data) {
   return json.dump(1);
 }
 
+void begin_with(const std::shared_ptr<torch::nn::Module>& module, const std::filesystem::path& weights) {
+  if (const auto unet = std::dynamic_pointer_cast<net::UNetImpl>(module)) {
+    net::UNet wide(unet);
+    net::load_widened(wide, weights);
+  } else {
+    net::load_weights(*module, weights);
+  }
+}
+
+Model model_of_run(const TrainRun& run) {
+  torch::manual_seed(run.config.seed);
+  Model model = make_model(run.config);
+  if (!run.start.empty()) begin_with(model.module, run.start);
+  model.module->to(net::torch_device(run.device));
+  return model;
+}
+
+Schedule schedule_of(const TrainConfig& config) {
+  return {
+      .peak = config.learning_rate, .steps = config.steps, .warm_up = config.warm_up, .final_share = config.final_share};
+}
+
+DescentOptions descent_options(const TrainConfig& config) {
+  // Shi's network is the one with batch normalisation.
+  const bool buffers = config.architecture == net::kShiArchitecture;
+  return {.schedule = schedule_of(config),
+          .weight_decay = config.weight_decay,
+          .largest_gradient = config.largest_gradient,
+          .average_decay = config.average_decay,
+          .averaged = buffers ? Averaged::kParametersAndBuffers : Averaged::kParameters,
+          .seed = config.seed};
+}
+
 class Training {
  public:
   Training(const TrainRun& run, const TrainHooks& hooks)
-      : run_(run), hooks_(hooks), device_(net::torch_device(run.device)), data_(run.data),
-        model_(make_seeded(run.config)), average_(*model_.module, run.config.average_decay, averaged()),
-        optimizer_(
-            model_.module->parameters(),
-            torch::optim::AdamWOptions(run.config.learning_rate).betas({0.9, 0.99}).weight_decay(run.config.weight_decay)) {
-    if (!run.start.empty()) {
-      begin_with(run.start);
-      average_ = WeightAverage(*model_.module, run.config.average_decay, averaged());
-    }
-    model_.module->to(device_);
-    for (torch::Tensor& value : average_.values()) value = value.to(device_);
+      : run_(run), hooks_(hooks), device_(net::torch_device(run.device)), data_(run.data), model_(model_of_run(run)),
+        descent_(model_.module, descent_options(run.config)) {
     require_meshes(data_, run.data, run.config);
     identity_ = run_json(run, data_);
     if (run.repeat_batch) return;
     io::create_folder(run.folder);
-    load_checkpoint(checkpoint_path(), state_, *model_.module, optimizer_, average_, identity_);
-    if (state_.step > last_step()) {
-      throw Error(ExitCode::kUsage, "The run in " + run.folder.string() + " has " + std::to_string(state_.step) +
-                                        " steps already and cannot stop after " + std::to_string(last_step()) +
-                                        ". Choose a later step or another folder.");
-    }
-    to_channels_last(*model_.module);  // a checkpoint from before the weights were so
+    resume();
     io::write_file_atomically(run.folder / "config.json", to_json(run.config));
     if (!run.validation_data.empty()) {
       validation_data_.emplace(run.validation_data);
@@ -85,12 +103,7 @@ class Training {
         stopped = true;
         break;
       }
-      const double loss = one_step(to_device(source.next(), device_));
-      if (!std::isfinite(loss)) {
-        throw Error(ExitCode::kUnexpected, "The loss is no number any more after step " + std::to_string(state_.step) +
-                                               "; lower the learning rate. The last checkpoint is from before that.");
-      }
-      loss_sum += loss;
+      loss_sum += one_step(to_device(source.next(), device_));
       ++counted;
       ++state_.step;
       const bool last = state_.step == end;
@@ -115,22 +128,15 @@ class Training {
   }
 
  private:
-  static Model make_seeded(const TrainConfig& config) {
-    torch::manual_seed(config.seed);
-    return make_model(config);
-  }
-
-  // Shi's network is the one with batch normalisation.
-  Averaged averaged() const {
-    return run_.config.architecture == net::kShiArchitecture ? Averaged::kParametersAndBuffers : Averaged::kParameters;
-  }
-
-  void begin_with(const std::filesystem::path& weights) {
-    if (const auto unet = std::dynamic_pointer_cast<net::UNetImpl>(model_.module)) {
-      net::UNet wide(unet);
-      net::load_widened(wide, weights);
-    } else {
-      net::load_weights(*model_.module, weights);
+  void resume() {
+    Checkpoint saved{.step = 0, .tables = {{kRowsTable, table_of_rows({})}}};
+    if (!load_checkpoint(checkpoint_path(), saved, descent_, identity_)) return;
+    state_.step = saved.step;
+    state_.rows = rows_of_table(saved.tables.at(kRowsTable));
+    if (state_.step > last_step()) {
+      throw Error(ExitCode::kUsage, "The run in " + run_.folder.string() + " has " + std::to_string(state_.step) +
+                                        " steps already and cannot stop after " + std::to_string(last_step()) +
+                                        ". Choose a later step or another folder.");
     }
   }
 
@@ -139,35 +145,29 @@ class Training {
   std::filesystem::path weights_path() const { return run_.folder / "weights.safetensors"; }
 
   double one_step(const Batch& batch) {
-    const TrainConfig& config = run_.config;
-    // Dropout depends on the seed and the step alone, so that a resumed run drops the same.
-    torch::manual_seed(config.seed ^ (static_cast<std::uint64_t>(state_.step) << 20U));
-    set_learning_rate(optimizer_, learning_rate_at(config, state_.step));
-    optimizer_.zero_grad();
-    const torch::Tensor loss = model_.loss(batch, config.loss);
+    descent_.begin(state_.step);
+    const torch::Tensor loss = model_.loss(batch, run_.config.loss);
     loss.backward();
-    torch::nn::utils::clip_grad_norm_(model_.module->parameters(), config.largest_gradient);
-    optimizer_.step();
-    average_.add(*model_.module, state_.step);
-    return loss.item<double>();
+    const auto value = loss.item<double>();
+    descent_.end(state_.step, value);
+    return value;
   }
 
   void add_row(double loss, double samples_per_second) {
     TrainRow row;
     row.step = state_.step;
     row.loss = loss;
-    row.learning_rate = learning_rate_at(run_.config, state_.step - 1);
+    row.learning_rate = learning_rate_at(schedule_of(run_.config), state_.step - 1);
     row.samples_per_second = samples_per_second;
     state_.rows.push_back(row);
   }
 
   void validate() {
-    average_.swap(*model_.module);
+    const AveragedWeights averaged(descent_.average(), *model_.module);
     state_.rows.back().validation = validator_->measure(model_);
     state_.rows.back().validated = true;
     if (hooks_.write_picture)
       hooks_.write_picture(run_.folder / "validation.png", validator_->picture(model_, kPictureRows));
-    average_.swap(*model_.module);
   }
 
   void report(double steps_per_second) const {
@@ -177,13 +177,14 @@ class Training {
   }
 
   void save() {
-    save_checkpoint(checkpoint_path(), state_, *model_.module, optimizer_, average_, identity_);
+    save_checkpoint(checkpoint_path(), {state_.step, {{kRowsTable, table_of_rows(state_.rows)}}}, descent_, identity_);
     std::map<std::string, std::string> metadata = model_.metadata;
     metadata["run"] = identity_;
     metadata["step"] = std::to_string(state_.step);
-    average_.swap(*model_.module);
-    net::save_weights(*model_.module, weights_path(), metadata, true);
-    average_.swap(*model_.module);
+    {
+      const AveragedWeights averaged(descent_.average(), *model_.module);
+      net::save_weights(*model_.module, weights_path(), metadata, true);
+    }
     io::write_file_atomically(run_.folder / "log.csv", to_csv(state_.rows));
     if (hooks_.write_picture) hooks_.write_picture(run_.folder / "curves.png", draw_curves(state_.rows));
   }
@@ -193,12 +194,14 @@ class Training {
   torch::Device device_;
   synth::ShardReader data_;
   Model model_;
-  WeightAverage average_;
-  torch::optim::AdamW optimizer_;
+  Descent descent_;
   std::optional<synth::ShardReader> validation_data_;
   std::optional<Validator> validator_;
   std::string identity_;
-  Checkpoint state_;
+  struct {
+    std::int64_t step = 0;
+    std::vector<TrainRow> rows;
+  } state_;
 };
 
 }  // namespace

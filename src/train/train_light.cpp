@@ -11,9 +11,9 @@
 
 #include "net/torch/light_mlp.h"
 #include "net/torch/weights.h"
-#include "train/checkpoint.h"
 #include "train/light_loss.h"
 #include "train/schedule.h"
+#include "train/weight_average.h"
 
 #include <optional>
 #include <sstream>

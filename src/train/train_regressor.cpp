@@ -6,10 +6,10 @@
 #include "faceprobe/io/atomic_file.h"
 #include "faceprobe/net/model_file.h"
 #include "net/torch/weights.h"
-#include "train/checkpoint.h"
 #include "train/regressor_data.h"
 #include "train/regressor_task.h"
 #include "train/schedule.h"
+#include "train/weight_average.h"
 
 #include <optional>
 #include <sstream>

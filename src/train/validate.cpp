@@ -3,6 +3,7 @@
 #include "faceprobe/core/angles.h"
 #include "faceprobe/core/color.h"
 #include "train/face_loss.h"
+#include "train/sheet.h"
 #include "train/to_device.h"
 
 #include <algorithm>
@@ -50,12 +51,6 @@ Image picture_of(const torch::Tensor& planes) {
   Image image(static_cast<int>(pixels.size(1)), static_cast<int>(pixels.size(0)), 3);
   std::copy_n(pixels.data_ptr<float>(), image.values().size(), image.data());
   return image;
-}
-
-void paste(const ByteImage& picture, int left, int top, ByteImage& sheet) {
-  for (int y = 0; y < picture.height(); ++y) {
-    std::copy_n(picture.pixel(0, y), 3 * picture.width(), sheet.pixel(left, top + y));
-  }
 }
 
 }  // namespace
