@@ -148,12 +148,21 @@ case_finetune() {
   expect_refused 3 "0 people with enough photos" "${tune[@]}" --people people -o tuned
   [ ! -e tuned ] || fail "a refusal left a folder"
   expect_exit 0 "${tune[@]}" --people people --max-expression 0.1 --held-out 0.5 --steps 3 -o tuned
-  expect_stdout "| after |"
-  expect_files tuned log.csv weights.safetensors
-  expect_exit 0 "${tune[@]}" --people people --max-expression 0.1 --held-out 0.5 --steps 3 -o again --json
+  expect_stdout "| after | 3 |"
+  expect_files tuned checkpoint.pt config.json curves.png log.csv people.png scores.csv weights.safetensors
+  # What is given beside a config has its say over it.
+  echo '{"held_out_share": 0.5, "steps": 5}' >tune.json
+  expect_exit 0 "${tune[@]}" --people people --max-expression 0.1 --config tune.json --steps 3 -o again --json
   expect_json 3 stdout steps
+  expect_json 3 stdout step_kept
   expect_json 1 stdout people_held_out
   expect_json again/weights.safetensors stdout weights
   json stdout after mean_highlight >/dev/null || fail "no score"
+  expect_exit 0 "${tune[@]}" --people people --max-expression 0.1 --config tune.json --validation faces -o checked
+  expect_stdout "| change |"
+  expect_stdout "RMSE on synthetic skin"
+  [ -s checked/validation.png ] || fail "no picture of synthetic faces"
+  echo '{"step": 5}' >wrong.json
+  expect_refused 2 "energy_weight" "${tune[@]}" --people people --config wrong.json -o wrong
   cmp tuned/weights.safetensors again/weights.safetensors || fail "the same run gave other weights"
 }
