@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# What finetuning on photos of people does: the table of `faceprobe finetune` on people that were held out, and the error on synthetic
-# faces before and after. The weights that come of it have seen research-only photos; they stay where they are made.
+# What finetuning on photos of people does: the table of `faceprobe finetune` on people that were held out, with the error on synthetic faces
+# by which its weights are chosen, and that error as `faceprobe eval` measures it. The weights that come of it have seen research-only
+# photos; they stay where they are made.
 #
 #   bench/people.sh --data DIR --faces DEV --training TRAIN [BUILD_DIR]        DEV and TRAIN: the faces of docs/training.md
 set -euo pipefail
@@ -22,8 +23,9 @@ for folder in "$data" "$faces" "$training"; do
 done
 start=$root/models/face.safetensors
 work=$build/people
-"$build/bin/faceprobe" finetune --people "$data/real/finetune" --start "$start" --data "$training" -o "$work" \
-  --steps 300 --weight 30 --energy-weight 0.1 --synthetic-batch 16
+rm -rf "$work"  # a run that is there would go on, and here it is to be measured
+"$build/bin/faceprobe" finetune --config "$root/models/finetune.json" --people "$data/real/finetune" --start "$start" --data "$training" \
+  --validation "$faces" -o "$work"
 "$build/bin/faceprobe" eval highlight --data "$faces" --weights pretrained="$start" --weights finetuned="$work/weights.safetensors" \
   --samples 100 >"$work/eval.md"
 printf '\nOn synthetic faces:\n\n'
