@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # Trains the rivals that are networks and leaves their weights in one folder, as `faceprobe eval paper --rivals OUT` takes them: gardner, sky,
-# legendre, mscr and shi (docs/training.md). What is there is not made again. After a stop the same command goes on: faces, mscr and shi where they
-# were, each of the other three from its beginning.
+# legendre, mscr, shi and albedo_shading (docs/training.md). What is there is not made again. After a stop the same command goes on: faces, mscr, shi
+# and albedo_shading where they were, each of the other three from its beginning.
 #
 #   bench/rivals.sh DATA OUT [FACES] [--build BUILD_DIR]
 #
 # DATA is the folder that docs/data.md describes. FACES has the folders train and dev, of docs/training.md; without it they are made in OUT/faces.
 # BUILD_DIR (build/test) is a build with FACEPROBE_TRAIN=ON. On two cores the faces took 28 minutes; gardner, sky and legendre take minutes
-# each, mscr and shi longer. OUT/work has the logs; it may be deleted afterwards.
+# each, mscr, shi and albedo_shading longer. OUT/work has the logs; it may be deleted afterwards.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -104,4 +104,5 @@ train sky sky --data "$data/hdri/train" --validation "$data/hdri/dev" "${scenes[
 train legendre legendre --data "$faces/train" --validation "$faces/dev"
 train mscr highlight --config "$root/models/rivals/mscr.json" --data "$faces/train" --validation "$faces/dev" --json
 train shi highlight --config "$root/models/rivals/shi.json" --data "$faces/train" --validation "$faces/dev" --json
+train albedo_shading highlight --config "$root/models/rivals/albedo_shading.json" --data "$faces/train" --validation "$faces/dev" --json
 exit $status

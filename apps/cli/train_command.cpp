@@ -60,10 +60,13 @@ void refuse_options_of_highlight(const Options& options) {
 void log_row(const train::TrainProgress& progress) {
   const train::TrainRow& row = progress.row;
   std::string errors;
-  if (row.validated) {
+  if (row.validated && row.validation.black_whole > 0) {
     errors =
         fmt::format(", error {:.2f} on skin (black {:.2f}), {:.2f} on the whole (black {:.2f})", row.validation.skin,
                     row.validation.black_skin, row.validation.whole, row.validation.black_whole);
+  } else if (row.validated) {  // of shading alone
+    errors = fmt::format(", shading off by {:.3f} in its logarithm, its colour by {:.2f} degrees",
+                         row.validation.shading, row.validation.colour_deg);
   }
   spdlog::info("step {} of {}: loss {:.5f}, {:.1f} samples a second, {:.0f} min left{}", row.step, progress.steps,
                row.loss, row.samples_per_second, progress.seconds_left / 60, errors);

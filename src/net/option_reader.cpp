@@ -47,6 +47,12 @@ std::vector<int> OptionReader::integers(const std::string& key) {
   return result;
 }
 
+float OptionReader::number(const std::string& key) {
+  const json value = take(key);
+  if (!value.is_number()) refuse('"' + key + "\" is no number");
+  return value.get<float>();
+}
+
 std::vector<float> OptionReader::numbers(const std::string& key) {
   const json list = take(key);
   if (!list.is_array()) refuse('"' + key + "\" is no list");

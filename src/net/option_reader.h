@@ -19,6 +19,7 @@ class OptionReader {
 
   int integer(const std::string& key);
   std::vector<int> integers(const std::string& key);
+  float number(const std::string& key);
   std::vector<float> numbers(const std::string& key);
   // No key may be left.
   void finish() const;

@@ -15,8 +15,15 @@
 namespace faceprobe::train {
 namespace {
 
-// The network of Shi et al. learns from the shading.
-bool learns_surface(const TrainConfig& config) { return config.architecture == "face" || config.architecture == "shi"; }
+// Those of Shi et al. and of the paper's albedo and shading learn from the shading.
+bool learns_surface(const TrainConfig& config) {
+  return config.architecture == "face" || config.architecture == "shi" || config.architecture == "albedo_shading";
+}
+
+// The paper's networks are trained without.
+bool changes_light(const TrainConfig& config) {
+  return config.architecture != "mscr" && config.architecture != "albedo_shading";
+}
 
 // Rec.709 luminance in all channels of both layers, as a grey photo has.
 void take_colour(TrainingPicture& picture) {
@@ -211,7 +218,7 @@ TrainingPicture draw_picture(const synth::ShardReader& reader, int sample, const
   }
   const double width = picture.linear.width();
   const double height = picture.linear.height();
-  if (config.architecture != "mscr") apply_gain(gain, picture);
+  if (changes_light(config)) apply_gain(gain, picture);
   if (occluded) put_before(picture, random);
   if (grey) take_colour(picture);
   if (!masked) {

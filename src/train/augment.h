@@ -14,7 +14,7 @@ struct TrainingPicture {
   ByteImage mask;   // 1 channel
   Image highlight;  // 3 channels
   ByteImage skin;   // 1 channel
-  // For the face network and that of Shi et al.; empty for the others.
+  // For the networks that learn from the surface or its shading: face, shi, albedo_shading; empty for the others.
   Image mesh = {};        // 3 channels: normals of the mesh that was found, 0 off it
   Image normal = {};      // 3 channels
   Image depth_m = {};     // 1 channel

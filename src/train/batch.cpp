@@ -117,9 +117,10 @@ Batch training_batch(const synth::ShardReader& reader, const TrainConfig& config
 }  // namespace
 
 void require_meshes(const synth::ShardReader& reader, const std::filesystem::path& folder, const TrainConfig& config) {
-  if (config.architecture == "shi" && !has_shading(reader)) {
-    throw Error(ExitCode::kInput, "The network of Shi et al. learns from the shading, which the data in " +
-                                      folder.string() + " do not have. Make them again with `faceprobe synth`.");
+  if ((config.architecture == "shi" || config.architecture == "albedo_shading") && !has_shading(reader)) {
+    throw Error(ExitCode::kInput, "The network \"" + config.architecture +
+                                      "\" learns from the shading, which the data in " + folder.string() +
+                                      " do not have. Make them again with `faceprobe synth`.");
   }
   if (config.architecture != "face" || reader.has_meshes()) return;
   throw Error(ExitCode::kInput, "The face network is given the mesh that is found in a photo, which the data in " +

@@ -15,7 +15,7 @@
 
 namespace faceprobe::train {
 
-// What the face network is given and is to find beside the highlights, and shi learns the shading from; undefined tensors for the others.
+// What the face network is given and is to find beside the highlights, and shi and albedo_shading learn the shading from; undefined tensors for the others.
 struct SurfaceBatch {
   torch::Tensor mesh;     // N x 3 x H x W: normals of the mesh that was found, 0 off it; given to the network
   torch::Tensor normal;   // N x 3 x H x W, camera frame; of any length
@@ -35,7 +35,7 @@ struct Batch {
   torch::Tensor mask;         // N x 1 x H x W of 0 and 1
   torch::Tensor highlight;    // N x 3 x H x W
   torch::Tensor skin;         // N x 1 x H x W of 0 and 1: where errors count whole
-  SurfaceBatch surface = {};  // for the face network and shi
+  SurfaceBatch surface = {};  // for the face network, shi and albedo_shading
 };
 
 // Throws Error(kInput) when the data lack the meshes, or the shading, that the config's network is trained with.

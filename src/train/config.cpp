@@ -2,6 +2,10 @@
 
 #include "train/config_fields.h"
 
+#include <algorithm>
+#include <array>
+#include <string_view>
+
 namespace faceprobe::train {
 namespace {
 
@@ -66,8 +70,10 @@ constexpr auto kEachTrainField = [](auto& config, const auto& visit) {
 std::string TrainConfig::validate() const {
   std::string problem = limits_problem("training", *this, kEachTrainField);
   if (!problem.empty()) return problem;
-  if (architecture != "unet" && architecture != "face" && architecture != "mscr" && architecture != "shi") {
-    return "The training config's architecture is \"" + architecture + "\"; there are unet, face, mscr and shi.";
+  constexpr std::array<std::string_view, 5> kArchitectures = {"unet", "face", "mscr", "shi", "albedo_shading"};
+  if (std::ranges::find(kArchitectures, std::string_view(architecture)) == kArchitectures.end()) {
+    return "The training config's architecture is \"" + architecture +
+           "\"; there are unet, face, mscr, shi and albedo_shading.";
   }
   if (precision != "float32" && precision != "bf16") {
     return "The training config's precision is \"" + precision + "\"; there are float32 and bf16.";

@@ -5,10 +5,12 @@
 
 #include "net/face_outputs.h"
 #include "net/head.h"
+#include "net/torch/albedo_shading.h"
 #include "net/torch/highlight_head.h"
 #include "net/torch/mscr.h"
 #include "net/torch/shi.h"
 #include "net/torch/unet.h"
+#include "train/albedo_shading_loss.h"
 #include "train/autocast.h"
 #include "train/channels_last.h"
 #include "train/face_loss.h"
@@ -109,6 +111,37 @@ Model mscr_model(const TrainConfig& config) {
   return model;
 }
 
+// Given what the true highlights leave of the picture.
+Model albedo_shading_model(const TrainConfig& config) {
+  const auto options = read_options(net::albedo_shading_options_from_json,
+                                    merged(net::options_json(net::AlbedoShadingOptions{}), config.network));
+  net::AlbedoShading network(options);
+  const Forward run = in_precision(config.precision, [impl = network.ptr()](const auto& x) {
+    const net::LogLayers logs = impl->forward(x);
+    return torch::cat({logs.albedo, logs.shading}, 1);
+  });
+  auto forward = [run, options](const Batch& batch) {
+    return run(net::albedo_shading_input(batch.linear - batch.highlight, options));
+  };
+  const auto logs_of = [forward](const Batch& batch) {
+    const std::vector<torch::Tensor> logs = forward(batch).chunk(2, 1);
+    return net::LogLayers{logs[0], logs[1]};
+  };
+  Model model;
+  model.module = network.ptr();
+  model.forward = forward;
+  model.loss = [logs_of, options](const Batch& batch, const LossConfig&) {
+    return albedo_shading_loss(logs_of(batch), batch, options);
+  };
+  model.layers = [logs_of, options](const Batch& batch) {
+    const net::LogLayers logs = logs_of(batch);
+    return FoundLayers{net::light_of_log(logs.albedo, options), net::light_of_log(logs.shading, options)};
+  };
+  model.metadata = {{net::kArchitectureKey, net::kAlbedoShadingArchitecture},
+                    {net::kOptionsKey, net::options_json(options)}};
+  return model;
+}
+
 Model shi_model(const std::string& given) {
   const auto options = read_options(net::shi_options_from_json, merged(net::options_json(net::ShiOptions{}), given));
   net::Shi shi(options);
@@ -133,6 +166,7 @@ namespace {
 Model model_as_drawn(const TrainConfig& config) {
   if (config.architecture == net::kMscrArchitecture) return mscr_model(config);
   if (config.architecture == net::kShiArchitecture) return shi_model(config.network);
+  if (config.architecture == net::kAlbedoShadingArchitecture) return albedo_shading_model(config);
   Model model = unet_model(config, finds_surface(config));
   if (const auto unet = std::dynamic_pointer_cast<net::UNetImpl>(model.module);
       config.picture_px % unet->multiple() != 0) {

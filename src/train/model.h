@@ -14,16 +14,24 @@
 
 namespace faceprobe::train {
 
+// N x 3 x H x W each, linear, each at a level of its own.
+struct FoundLayers {
+  torch::Tensor albedo, shading;
+};
+
 struct Model {
   std::shared_ptr<torch::nn::Module> module;
   // For the loss: the layer as it comes. Bounded for the U-Net, raw for MSCR, which is trained on what it says (paper Sec. 3.1), and Shi.
+  // Of albedo_shading its two layers of logarithms, one behind the other.
   std::function<torch::Tensor(const Batch&)> forward;
-  // For use: within the picture, 0 <= H <= I.
+  // For use: within the picture, 0 <= H <= I. Empty for albedo_shading, which is given the picture without its highlights.
   std::function<torch::Tensor(const Batch&)> highlight;
   // What a step lowers.
   std::function<torch::Tensor(const Batch&, const LossConfig&)> loss;
   // Everything the face network finds but the highlights; empty for the others.
   std::function<net::FaceSurface(const Batch&)> surface;
+  // What albedo_shading finds; empty for the others.
+  std::function<FoundLayers(const Batch&)> layers;
   std::map<std::string, std::string> metadata;  // of the weights file
 };
 

@@ -1,5 +1,6 @@
 #include "train/shi_loss.h"
 
+#include "train/layer_truth.h"
 #include "train/loss.h"
 
 namespace faceprobe::train {
@@ -19,16 +20,6 @@ torch::Tensor mostly_scale_invariant(const torch::Tensor& estimate, const torch:
 
 }  // namespace
 
-ShiTruth shi_truth(const Batch& batch) {
-  constexpr double kDark = 1e-3;
-  const torch::Tensor& shading = batch.surface.shading;
-  const torch::Tensor lit = shading.amin(1, true) > kDark;
-  const torch::Tensor known = lit.logical_and(batch.clip.amax(1, true) == 0).to(shading.scalar_type());
-  // Noise and tone curve of the camera make more than 1 of the quotient here and there in the dark, up to a hundred.
-  const torch::Tensor albedo = ((batch.linear - batch.highlight) / shading.clamp_min(kDark)).clamp(0, 1);
-  return {albedo, shading, known};
-}
-
 torch::Tensor scale_invariant_error(const torch::Tensor& estimate, const torch::Tensor& truth,
                                     const torch::Tensor& known) {
   constexpr double kLeast = 0.1, kMost = 10;
@@ -41,7 +32,7 @@ torch::Tensor scale_invariant_error(const torch::Tensor& estimate, const torch::
 }
 
 torch::Tensor shi_loss(const net::ShiLayers& found, const Batch& batch) {
-  const ShiTruth truth = shi_truth(batch);
+  const LayerTruth truth = layer_truth(batch);
   return mostly_scale_invariant(found.albedo, truth.albedo, truth.known) +
          mostly_scale_invariant(found.shading, truth.shading, truth.known) + squared_loss(found.highlight, batch);
 }

@@ -9,14 +9,6 @@
 
 namespace faceprobe::train {
 
-// N x 3 x H x W each but `known`: N x 1 x H x W of 0 and 1, where the other two are known.
-struct ShiTruth {
-  torch::Tensor albedo, shading, known;
-};
-// albedo = (picture - highlight) / shading, at most 1, where there is light enough for that and nothing is clipped. `batch.surface` must be
-// there.
-ShiTruth shi_truth(const Batch& batch);
-
 // Mean square of scale * estimate - truth where `known`, with the best scale of each picture and channel, kept within 0.1 to 10.
 torch::Tensor scale_invariant_error(const torch::Tensor& estimate, const torch::Tensor& truth,
                                     const torch::Tensor& known);

@@ -3,6 +3,7 @@
 #include "faceprobe/core/angles.h"
 #include "faceprobe/core/color.h"
 #include "train/face_loss.h"
+#include "train/layer_truth.h"
 #include "train/sheet.h"
 #include "train/to_device.h"
 
@@ -32,18 +33,52 @@ torch::Tensor degrees_between(const torch::Tensor& a, const torch::Tensor& b) {
   return 2 * (0.5 * chord(a, b)).clamp_max(1).asin() * degrees(1);
 }
 
+void add_light(const torch::Tensor& log_level, const torch::Tensor& colour, const SurfaceBatch& truth, Validation& sum) {
+  const torch::Tensor error = (log_level - truth.shading.mean(1, true).clamp_min(1e-4).log()) * truth.lit;
+  const torch::Tensor count = truth.lit.sum({1, 2, 3}).clamp_min(1);
+  const torch::Tensor level = error.sum({1, 2, 3}) / count;
+  const torch::Tensor square = error.square().sum({1, 2, 3}) / count - level.square();
+  sum.shading += square.clamp_min(0).sqrt().sum().item<double>();
+  sum.colour_deg += mean_of(degrees_between(colour, truth.shading), truth.lit);
+}
+
 void add_surface(const net::FaceSurface& found, const Batch& batch, Validation& sum) {
   const SurfaceBatch& truth = batch.surface;
   const torch::Tensor everywhere = torch::ones_like(batch.skin);
   sum.normal_deg += mean_of(degrees_between(found.normal, truth.normal), batch.skin);
   const torch::Tensor right = found.region.argmax(1, true) == truth.region.to(torch::kLong);
   sum.region_share += mean_of(right.to(torch::kFloat), everywhere);
-  const torch::Tensor error = (found.log_level - truth.shading.mean(1, true).clamp_min(1e-4).log()) * truth.lit;
-  const torch::Tensor count = truth.lit.sum({1, 2, 3}).clamp_min(1);
-  const torch::Tensor level = error.sum({1, 2, 3}) / count;
-  const torch::Tensor square = error.square().sum({1, 2, 3}) / count - level.square();
-  sum.shading += square.clamp_min(0).sqrt().sum().item<double>();
-  sum.colour_deg += mean_of(degrees_between(found.colour, truth.shading), truth.lit);
+  add_light(found.log_level, found.colour, truth, sum);
+}
+
+void add_highlight(const torch::Tensor& found, const Batch& batch, Validation& sum) {
+  const torch::Tensor error = found - batch.highlight;
+  const torch::Tensor everywhere = torch::ones_like(batch.skin);
+  sum.skin += rms(error, batch.skin).sum().item<double>();
+  sum.whole += rms(error, everywhere).sum().item<double>();
+  sum.black_skin += rms(batch.highlight, batch.skin).sum().item<double>();
+  sum.black_whole += rms(batch.highlight, everywhere).sum().item<double>();
+}
+
+// At the truth's level where that is known.
+torch::Tensor levelled(const torch::Tensor& found, const torch::Tensor& truth, const torch::Tensor& known) {
+  return found * (truth * known).sum() / (found * known).sum().clamp_min(1e-6);
+}
+
+std::vector<torch::Tensor> highlight_cells(const torch::Tensor& found, const Batch& batch, std::int64_t item) {
+  return {batch.linear[item], 2.0 * batch.highlight[item], 2.0 * found, batch.linear[item] - found};
+}
+
+// Of a picture that is given without its highlights.
+std::vector<torch::Tensor> layer_cells(const FoundLayers& found, const Batch& batch, std::int64_t item) {
+  const LayerTruth truth = layer_truth(batch);
+  const torch::Tensor known = truth.known[item];
+  return {batch.linear[item],
+          batch.linear[item] - batch.highlight[item],
+          0.5 * known * truth.shading[item],
+          0.5 * known * levelled(found.shading[item], truth.shading[item], known),
+          known * truth.albedo[item],
+          known * levelled(found.albedo[item], truth.albedo[item], known)};
 }
 
 Image picture_of(const torch::Tensor& planes) {
@@ -72,14 +107,13 @@ Validation Validator::measure(const Model& model) const {
   Validation sum;
   std::int64_t pictures = 0;
   for (const Batch& batch : batches_) {
-    const torch::Tensor error = model.highlight(batch) - batch.highlight;
-    const torch::Tensor everywhere = torch::ones_like(batch.skin);
-    sum.skin += rms(error, batch.skin).sum().item<double>();
-    sum.whole += rms(error, everywhere).sum().item<double>();
-    sum.black_skin += rms(batch.highlight, batch.skin).sum().item<double>();
-    sum.black_whole += rms(batch.highlight, everywhere).sum().item<double>();
+    if (model.highlight) add_highlight(model.highlight(batch), batch, sum);
     if (model.surface) add_surface(model.surface(batch), batch, sum);
-    pictures += error.size(0);
+    if (model.layers) {
+      const torch::Tensor light = model.layers(batch).shading.clamp_min(1e-4);  // black has no colour
+      add_light(light.mean(1, true).log(), light, batch.surface, sum);
+    }
+    pictures += batch.linear.size(0);
   }
   model.module->train();
   const double scale = pictures > 0 ? kCodes / static_cast<double>(pictures) : 0.0;
@@ -97,9 +131,9 @@ ByteImage Validator::picture(const Model& model, int rows) const {
   for (int r = 0; r < rows && total > 0; ++r) {
     const Batch& batch = batches_[static_cast<std::size_t>(r * total / rows)];
     const std::int64_t item = r % batch.linear.size(0);
-    const torch::Tensor found = model.highlight(batch)[item];
-    std::vector<torch::Tensor> layers = {batch.linear[item], 2.0 * batch.highlight[item], 2.0 * found,
-                                         batch.linear[item] - found};
+    const torch::Tensor found = model.highlight ? model.highlight(batch)[item] : torch::Tensor();
+    std::vector<torch::Tensor> layers =
+        model.layers ? layer_cells(model.layers(batch), batch, item) : highlight_cells(found, batch, item);
     if (model.surface) {
       const net::FaceSurface surface = model.surface(batch);
       const torch::Tensor skin = batch.skin[item];

@@ -12,7 +12,8 @@ class Validator {
   Validator(const synth::ShardReader& reader, const TrainConfig& config, const torch::Device& device);
   Validation measure(const Model& model) const;
   // Rows of photo, highlight that is known, highlight that was found, what is left; the layers twice as bright as they are. Of the face
-  // network, on skin, then the normals that are known and found, the shadings that are known and found, half as bright, and the albedo.
+  // network, on skin, then the normals that are known and found, the shadings that are known and found, half as bright, and the albedo. Of
+  // albedo_shading rows of photo, diffuse layer, shading that is known and that was found, half as bright, and the same of the albedo.
   ByteImage picture(const Model& model, int rows) const;
 
  private:

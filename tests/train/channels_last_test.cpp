@@ -14,12 +14,13 @@ Batch noise_batch() {
   batch.linear = pictures(3);
   batch.clip = torch::zeros({2, 32, 32, 3}).permute({0, 3, 1, 2});
   batch.mask = torch::ones({2, 32, 32, 1}).permute({0, 3, 1, 2});
+  batch.highlight = 0.2 * batch.linear;
   batch.surface.mesh = pictures(3);
   return batch;
 }
 
 TEST(ChannelsLast, EveryConvolutionHasItAndTheAnswersAreTheSame) {
-  for (const char* architecture : {"unet", "face", "mscr", "shi"}) {
+  for (const char* architecture : {"unet", "face", "mscr", "shi", "albedo_shading"}) {
     TrainConfig config;
     config.architecture = architecture;
     if (config.architecture == "unet" || config.architecture == "face") config.network = R"({"widths":[8,16]})";

@@ -2,6 +2,7 @@
 
 #include "faceprobe/core/error.h"
 #include "faceprobe/train/train.h"
+#include "train/layer_truth.h"
 #include "train/model.h"
 #include "train/small_data.h"
 
@@ -28,13 +29,13 @@ Batch known_layers(std::int64_t count, std::int64_t size) {
 }
 
 net::ShiLayers right(const Batch& batch) {
-  const ShiTruth truth = shi_truth(batch);
+  const LayerTruth truth = layer_truth(batch);
   return {truth.albedo, truth.shading, batch.highlight};
 }
 
 TEST(ShiLoss, TruthIsWhatTheLayersMakeThePictureOf) {
   const Batch batch = known_layers(2, 8);
-  const ShiTruth truth = shi_truth(batch);
+  const LayerTruth truth = layer_truth(batch);
   EXPECT_TRUE(torch::allclose(truth.albedo * truth.shading + batch.highlight, batch.linear));
   EXPECT_EQ(truth.known.sum().item<double>(), 2 * 8 * 8);
 }
@@ -43,7 +44,7 @@ TEST(ShiLoss, NothingIsKnownInTheDarkNorOfWhatIsClipped) {
   Batch batch = known_layers(1, 8);
   batch.surface.shading.narrow(3, 0, 2).select(1, 1).zero_();
   batch.clip.narrow(3, 7, 1).select(1, 2).fill_(1);
-  const ShiTruth truth = shi_truth(batch);
+  const LayerTruth truth = layer_truth(batch);
   EXPECT_EQ(truth.known.sum().item<double>(), 8 * 5);
   EXPECT_EQ(truth.known.narrow(3, 2, 5).min().item<double>(), 1);
   EXPECT_LE(truth.albedo.max().item<double>(), 1);
@@ -64,7 +65,7 @@ TEST(ShiLoss, TheTruthCostsNothingAndAnOffHighlightItsSquare) {
 
 TEST(ShiLoss, AScaledTruthCostsNothingWithinTheLimits) {
   const Batch batch = known_layers(2, 8);
-  const ShiTruth truth = shi_truth(batch);
+  const LayerTruth truth = layer_truth(batch);
   for (const double scale : {0.11, 0.5, 1.0, 9.9})
     EXPECT_NEAR(scale_invariant_error(scale * truth.albedo, truth.albedo, truth.known).item<double>(), 0, 1e-12)
         << scale;

@@ -196,7 +196,7 @@ TEST(TrainConfig, SaysWhatIsWrong) {
   refused(R"({"batch": "many"})", "batch");
   refused(R"({"batch": 0})", "is 0; allowed is 1 to 4096");
   refused(R"({"learning_rate": 2})", "1e-9 to 1");
-  refused(R"({"architecture": "vgg"})", "unet, face, mscr and shi");
+  refused(R"({"architecture": "vgg"})", "unet, face, mscr, shi and albedo_shading");
   refused(R"({"precision": "half"})", "float32 and bf16");
   refused(R"({"architecture": "shi", "precision": "bf16"})", "bf16 for the others");
   refused(R"({"network": [8, 8]})", "[8,8] for network");

@@ -19,12 +19,13 @@ inline constexpr const char* kUNetArchitecture = "unet";
 inline constexpr const char* kFaceArchitecture = "face";
 inline constexpr const char* kMscrArchitecture = "mscr";
 inline constexpr const char* kShiArchitecture = "shi";
+inline constexpr const char* kAlbedoShadingArchitecture = "albedo_shading";
 
 struct ModelInfo {
-  std::string architecture;          // "unet", "face", "mscr", "shi", "light", "gardner", "legendre" or "sky"
-  std::string options_json;          // of that network
-  std::string sha256;                // of the file, hex
-  std::int64_t parameter_count = 0;  // numbers in all tensors
+  std::string architecture;  // "unet", "face", "mscr", "shi", "albedo_shading", "light", "gardner", "legendre" or "sky"
+  std::string options_json;  // of that network
+  std::string sha256;        // of the file, hex
+  std::int64_t parameter_count = 0;             // numbers in all tensors
   std::map<std::string, std::string> metadata;  // all of it
 };
 

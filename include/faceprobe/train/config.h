@@ -44,7 +44,8 @@ struct LossConfig {
 struct TrainConfig {
   // "unet": highlights alone. "face": the same with normals, depth, regions and shading beside them. "mscr": the paper's, highlights
   // with its plain L2 loss and no change of the light's colour and exposure. "shi": that of Shi et al. 2017, highlights, albedo and shading with its own
-  // loss; the weights above are not for it.
+  // loss; the weights above are not for it. "albedo_shading": the paper's of Sec. 4.3, from the diffuse layer, with Narihira et al.'s
+  // scale-invariant loss; as mscr else.
   std::string architecture = "unet";
   std::string network = "{}";  // the architecture's own options, JSON
   // Side of the square pictures that the network is given, kept with its weights: it then looks at every face twice, at all of the picture

@@ -44,7 +44,7 @@ struct Validation {
   double whole = 0;        // on the whole picture
   double black_skin = 0;   // what an empty layer would have
   double black_whole = 0;  // the same of the whole picture
-  // Of the face network; 0 for the others.
+  // Of the face network; 0 for the others. albedo_shading has the last two alone, and none of the above.
   double normal_deg = 0;    // mean angle between normals on the face's skin
   double region_share = 0;  // of pixels whose region is right
   double shading = 0;       // root mean square error of the shading's logarithm on skin, its level apart

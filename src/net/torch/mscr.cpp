@@ -63,38 +63,49 @@ torch::Tensor grow_8_times(const torch::Tensor& x, const torch::Tensor& filter) 
   return torch::conv_transpose2d(x, filter.expand({channels, 1, kFilter, kFilter}), {}, kGrow, kGrow / 2, 0, channels);
 }
 
-torch::nn::Conv2d MscrImpl::add_conv(const std::string& name, const Conv2dOptions& conv, double deviation, double bias) {
+torch::nn::Conv2d MscrTrunk::add_conv(const std::string& name, const Conv2dOptions& conv, double deviation, double bias) {
   torch::nn::Conv2d layer = register_module(name, torch::nn::Conv2d(conv));
   torch::nn::init::normal_(layer->weight, 0, deviation);
   torch::nn::init::constant_(layer->bias, bias);
   return layer;
 }
 
-MscrImpl::Unit MscrImpl::add_unit(const std::string& name, const Conv2dOptions& conv, double deviation) {
+MscrTrunk::Unit MscrTrunk::add_unit(const std::string& name, const Conv2dOptions& conv, double deviation) {
   const auto slopes = torch::nn::PReLUOptions().num_parameters(conv.out_channels()).init(0.25);
   return {add_conv(name, conv, deviation, 0), register_module(name + "_prelu", torch::nn::PReLU(slopes))};
 }
 
-MscrImpl::MscrImpl(const MscrOptions& options) : options_(options) {
-  if (const std::string problem = options.validate(); !problem.empty()) throw std::invalid_argument(problem);
-  conv1_ = add_conv("conv1", Conv2dOptions(3, 96, 11).stride(4).padding(5), kUsual, 0);
-  conv2_ = add_conv("conv2", Conv2dOptions(96, 256, 5).padding(2).groups(2), kUsual, 1);
-  conv3_ = add_conv("conv3", Conv2dOptions(256, 384, 3).padding(1), kUsual, 0);
-  conv4_ = add_conv("conv4", Conv2dOptions(384, 384, 3).padding(1).groups(2), kUsual, 0);
-  conv5_ = add_conv("conv5", Conv2dOptions(384, 256, 3).padding(1).groups(2), kUsual, 1);
+// As many smaller terms or fewer larger ones: their sums have the same spread.
+double MscrTrunk::usual_deviation() const { return kUsual * std::sqrt(static_cast<double>(divisor_)); }
+
+MscrTrunk::MscrTrunk(int divisor) : divisor_(divisor) {
+  const auto c = [this](int released) { return channels(released); };
+  const double usual = usual_deviation();
+  conv1_ = add_conv("conv1", Conv2dOptions(3, c(96), 11).stride(4).padding(5), kUsual, 0);
+  conv2_ = add_conv("conv2", Conv2dOptions(c(96), c(256), 5).padding(2).groups(2), usual, 1);
+  conv3_ = add_conv("conv3", Conv2dOptions(c(256), c(384), 3).padding(1), usual, 0);
+  conv4_ = add_conv("conv4", Conv2dOptions(c(384), c(384), 3).padding(1).groups(2), usual, 0);
+  conv5_ = add_conv("conv5", Conv2dOptions(c(384), c(256), 3).padding(1).groups(2), usual, 1);
   filter_ = register_buffer("conv5_upsample", bilinear_filter());
-  coarse_out_ = add_unit("s1_out", Conv2dOptions(256, 64, 1), kUsual);
-  first_ = add_unit("s2_1", Conv2dOptions(3, 96, 9).stride(2).padding(4), kSmall);
+  coarse_out_ = add_unit("s1_out", Conv2dOptions(c(256), c(64), 1), usual);
+  first_ = add_unit("s2_1", Conv2dOptions(3, c(96), 9).stride(2).padding(4), kSmall);
   for (std::size_t i = 0; i < fine_.size(); ++i) {
-    fine_[i] = add_unit("s2_" + std::to_string(i + 2), Conv2dOptions(i == 0 ? 96 + 64 : 64, 64, 5).padding(2), kUsual);
+    const int in = i == 0 ? c(96) + c(64) : c(64);
+    fine_[i] = add_unit("s2_" + std::to_string(i + 2), Conv2dOptions(in, c(64), 5).padding(2), usual);
   }
-  up_ = register_module("up",
-                        torch::nn::ConvTranspose2d(torch::nn::ConvTranspose2dOptions(64, 3, 8).stride(4).padding(2)));
-  torch::nn::init::normal_(up_->weight, 0, kSmall);
-  torch::nn::init::constant_(up_->bias, 0);
 }
 
-torch::Tensor MscrImpl::coarse(const torch::Tensor& x) {
+MscrTrunk::Branch MscrTrunk::add_branch(const std::string& unit, const std::string& up) {
+  const int width = channels(64);
+  Branch branch{add_unit(unit, Conv2dOptions(width, width, 5).padding(2), usual_deviation()), nullptr};
+  branch.up = register_module(
+      up, torch::nn::ConvTranspose2d(torch::nn::ConvTranspose2dOptions(width, 3, 8).stride(4).padding(2)));
+  torch::nn::init::normal_(branch.up->weight, 0, kSmall);
+  torch::nn::init::constant_(branch.up->bias, 0);
+  return branch;
+}
+
+torch::Tensor MscrTrunk::coarse(const torch::Tensor& x) {
   torch::Tensor features = normalise(pool(torch::relu(conv1_(x))));
   features = normalise(pool(torch::relu(conv2_(features))));
   features = torch::relu(conv3_(features));
@@ -103,13 +114,24 @@ torch::Tensor MscrImpl::coarse(const torch::Tensor& x) {
   return drop(coarse_out_.slope(coarse_out_.conv(features)), is_training());
 }
 
-torch::Tensor MscrImpl::forward(const torch::Tensor& x) {
+torch::Tensor MscrTrunk::features(const torch::Tensor& x) {
   if (x.dim() != 4 || x.size(1) != 3 || x.size(2) % kMscrMultiple != 0 || x.size(3) % kMscrMultiple != 0) {
     throw std::invalid_argument("MSCR: the input must be N x 3 x H x W with H and W multiples of 32");
   }
   torch::Tensor features = torch::cat({pool(first_.slope(first_.conv(x))), coarse(x)}, 1);
   for (Unit& unit : fine_) features = drop(unit.slope(unit.conv(features)), is_training());
-  return up_(features);
+  return features;
 }
+
+torch::Tensor MscrTrunk::run(Branch& branch, const torch::Tensor& features) {
+  return branch.up(drop(branch.unit.slope(branch.unit.conv(features)), is_training()));
+}
+
+MscrImpl::MscrImpl(const MscrOptions& options) : MscrTrunk(1), options_(options) {
+  if (const std::string problem = options.validate(); !problem.empty()) throw std::invalid_argument(problem);
+  highlight_ = add_branch("s2_5", "up");
+}
+
+torch::Tensor MscrImpl::forward(const torch::Tensor& x) { return run(highlight_, features(x)); }
 
 }  // namespace faceprobe::net

@@ -28,6 +28,7 @@ std::string options_json(const MscrOptions& options);
 MscrOptions mscr_options_from_json(const std::string& text);
 
 constexpr int kMscrMultiple = 32;
+constexpr int kMostMscrDivisor = 16;  // powers of two up to it divide every layer and group
 
 // `linear`: N x 3 x H x W. Light clamped to 0 to 1, less the mean.
 torch::Tensor mscr_input(const torch::Tensor& linear, const MscrOptions& options);
@@ -37,32 +38,56 @@ torch::Tensor bilinear_filter();
 // N x C x h x w -> N x C x 8h x 8w with that filter, every channel by itself. Beyond its edge the picture is taken as 0.
 torch::Tensor grow_8_times(const torch::Tensor& x, const torch::Tensor& filter);
 
-class MscrImpl : public torch::nn::Module {
- public:
-  // Throws std::invalid_argument for options that do not validate.
-  explicit MscrImpl(const MscrOptions& options);
-  // Throws std::invalid_argument for another number of channels or a size that is no multiple of 32.
-  torch::Tensor forward(const torch::Tensor& x);
-
-  const MscrOptions& options() const { return options_; }
-
- private:
-  torch::nn::Conv2d add_conv(const std::string& name, const torch::nn::Conv2dOptions& conv, double deviation,
-                             double bias);
+// All of it before the outputs' own layers; on these stand MSCR and, with two branches, albedo_shading.h.
+class MscrTrunk : public torch::nn::Module {
+ protected:
   // A convolution with its PReLU.
   struct Unit {
     torch::nn::Conv2d conv{nullptr};
     torch::nn::PReLU slope{nullptr};
   };
+  // One output: a unit, and a transposed convolution to three channels at the full size.
+  struct Branch {
+    Unit unit;
+    torch::nn::ConvTranspose2d up{nullptr};
+  };
+
+  // `divisor`: of every number of channels but the picture's; 1 = as released, at most kMostMscrDivisor.
+  explicit MscrTrunk(int divisor);
+  // Registers them under these names.
+  Branch add_branch(const std::string& unit, const std::string& up);
+  // N x 3 x H x W -> N x 64 x H/4 x W/4. Throws std::invalid_argument for another number of channels or a size that is no multiple of 32.
+  torch::Tensor features(const torch::Tensor& x);
+  // Those features to N x 3 x H x W.
+  torch::Tensor run(Branch& branch, const torch::Tensor& features);
+
+ private:
+  int channels(int released) const { return released / divisor_; }
+  double usual_deviation() const;
+  torch::nn::Conv2d add_conv(const std::string& name, const torch::nn::Conv2dOptions& conv, double deviation,
+                             double bias);
   Unit add_unit(const std::string& name, const torch::nn::Conv2dOptions& conv, double deviation);
   torch::Tensor coarse(const torch::Tensor& x);
 
-  MscrOptions options_;
+  int divisor_;
   torch::nn::Conv2d conv1_{nullptr}, conv2_{nullptr}, conv3_{nullptr}, conv4_{nullptr}, conv5_{nullptr};
   torch::Tensor filter_;
   Unit coarse_out_, first_;
-  std::array<Unit, 4> fine_;
-  torch::nn::ConvTranspose2d up_{nullptr};
+  std::array<Unit, 3> fine_;
+};
+
+class MscrImpl : public MscrTrunk {
+ public:
+  // Throws std::invalid_argument for options that do not validate.
+  explicit MscrImpl(const MscrOptions& options);
+  // Throws std::invalid_argument as the trunk's features() do.
+  torch::Tensor forward(const torch::Tensor& x);
+
+  const MscrOptions& options() const { return options_; }
+
+ private:
+  MscrOptions options_;
+  Branch highlight_;
 };
 TORCH_MODULE(Mscr);
 

@@ -11,15 +11,9 @@
 namespace faceprobe::net {
 namespace {
 
-void prepare(torch::nn::Module& module, const io::TensorFile& file, const torch::Device& device) {
-  load_weights(module, file);
-  module.to(device);
-  module.eval();
-}
-
 Separator unet_separator(const ModelInfo& info, const io::TensorFile& file, const torch::Device& device) {
   UNet net(separator_options(info.options_json));
-  prepare(*net, file, device);
+  load_for_use(*net, file, device);
   return {net->multiple(), [net](const auto& linear, const auto& clip, const auto& mask) mutable {
             return highlight_from_raw(net(prepare_input(linear, clip, mask)), linear);
           }};
@@ -27,7 +21,7 @@ Separator unet_separator(const ModelInfo& info, const io::TensorFile& file, cons
 
 Separator mscr_separator(const ModelInfo& info, const io::TensorFile& file, const torch::Device& device) {
   Mscr net(mscr_options_from_json(info.options_json));
-  prepare(*net, file, device);
+  load_for_use(*net, file, device);
   return {kMscrMultiple, [net](const auto& linear, const auto&, const auto&) mutable {
             return torch::minimum(net(mscr_input(linear, net->options())).clamp_min(0), linear);
           }};
@@ -35,7 +29,7 @@ Separator mscr_separator(const ModelInfo& info, const io::TensorFile& file, cons
 
 Separator shi_separator(const ModelInfo& info, const io::TensorFile& file, const torch::Device& device) {
   Shi net(shi_options_from_json(info.options_json));
-  prepare(*net, file, device);
+  load_for_use(*net, file, device);
   return {net->multiple(), [net](const auto& linear, const auto&, const auto&) mutable {
             return torch::minimum(net(shi_input(linear)).highlight.clamp_min(0), linear);
           }};

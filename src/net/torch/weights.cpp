@@ -66,6 +66,12 @@ void load_weights(torch::nn::Module& module, const io::TensorFile& file) {
   }
 }
 
+void load_for_use(torch::nn::Module& module, const io::TensorFile& file, const torch::Device& device) {
+  load_weights(module, file);
+  module.to(device);
+  module.eval();
+}
+
 void load_weights(torch::nn::Module& module, const std::filesystem::path& path) {
   load_weights(module, io::read_safetensors(path));
 }

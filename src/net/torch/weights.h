@@ -23,5 +23,7 @@ void save_weights(const torch::nn::Module& module, const std::filesystem::path& 
 // Throws Error(kModel) that names the tensor and the shapes; the module is unchanged then. It stays on its device.
 void load_weights(torch::nn::Module& module, const std::filesystem::path& path);
 void load_weights(torch::nn::Module& module, const io::TensorFile& file);
+// The same for a network that is no longer trained: on the device, without dropout and with the means that it has seen.
+void load_for_use(torch::nn::Module& module, const io::TensorFile& file, const torch::Device& device);
 
 }  // namespace faceprobe::net
