@@ -105,7 +105,9 @@ void add_eval(CLI::App& program, Action& action) {
   command->add_option("--seconds", options->seconds, "for cases: time that such a program has for one")
       ->capture_default_str()
       ->check(CLI::Range(1, 86400));
-  command->add_option("--device", options->device, "for highlight: what computes; cuda:N is one of several cards")
+  command
+      ->add_option("--device", options->device,
+                   "for highlight and shading: what computes; cuda:N is one of several cards")
       ->type_name("{auto,cpu,cuda}")
       ->capture_default_str();
   command->add_option("--threads", options->threads, "threads; 0 = all processors")->capture_default_str();

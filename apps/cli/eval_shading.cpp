@@ -1,13 +1,18 @@
 #include "eval_stages.h"
 #include "faceprobe/eval/shading_benchmark.h"
 #include "faceprobe/io/atomic_file.h"
+#include "faceprobe/io/data_files.h"
 #include "faceprobe/lighting/albedo.h"
 #include "faceprobe/net/face_net.h"
+#include "faceprobe/net/torch_shading_net.h"
 
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
 #include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace faceprobe::cli {
 
@@ -50,17 +55,76 @@ eval::ShadingMethod by_region(const std::string& name, const std::shared_ptr<net
           }};
 }
 
+eval::ShadingEstimate estimate_of(net::ShadingLayers layers) {
+  return {std::move(layers.albedo), std::move(layers.shading)};
+}
+
+// The paper's way: highlights off first.
+eval::ShadingMethod of_diffuse(const std::string& name, const std::shared_ptr<net::TorchShadingNet>& net,
+                               const std::shared_ptr<net::FaceNet>& highlights) {
+  return {name, [net, highlights](const eval::PhotoInput& input) {
+            const net::FaceLayers seen =
+                highlights->layers_both_ways(input.linear, input.clip, input.mask, input.mesh_normal_cam);
+            return estimate_of(net->layers(difference(input.linear, seen.highlight)));
+          }};
+}
+
+eval::ShadingMethod of_photo(const std::string& name, const std::shared_ptr<net::TorchShadingNet>& net) {
+  return {name, [net](const eval::PhotoInput& input) { return estimate_of(net->layers(input.linear)); }};
+}
+
+// Rows of networks that split a picture, and the face network whose highlights come off for those that want a diffuse layer: the first that is
+// named, else the program's.
+class Rows {
+ public:
+  explicit Rows(const EvalOptions& options)
+      : threads_(options.threads), device_(net::device_from_name(options.device)) {
+    for (const std::string& weights : options.weights) add(weights);
+    for (const auto& [name, net] : diffuse_) {
+      if (!face_.second) load_face("net", io::data_file("face.safetensors").string());
+      methods_.push_back(of_diffuse(name + ", highlights of " + face_.first, net, face_.second));
+    }
+  }
+
+  const std::vector<eval::ShadingMethod>& methods() const { return methods_; }
+
+ private:
+  void add(const std::string& weights) {
+    const auto [name, file] = name_and_file(weights);
+    const std::string architecture = net::read_model_info(file).architecture;
+    if (architecture == net::kAlbedoShadingArchitecture || architecture == net::kShiArchitecture) {
+      const auto net = std::make_shared<net::TorchShadingNet>(
+          file, net::TorchShadingNetOptions{.threads = threads_, .device = device_});
+      if (net->takes_diffuse()) {
+        diffuse_.emplace_back(name, net);
+      } else {
+        methods_.push_back(of_photo(name, net));
+      }
+      return;
+    }
+    const auto net = load_face(name, file);
+    methods_.push_back(by_region("one albedo a region, highlights of " + name, net));
+    methods_.push_back(network(name, net));
+  }
+
+  std::shared_ptr<net::FaceNet> load_face(const std::string& name, const std::string& file) {
+    auto net = std::make_shared<net::FaceNet>(file, net::FaceNetOptions{.threads = threads_});
+    if (!face_.second) face_ = {name, net};
+    return net;
+  }
+
+  int threads_;
+  net::Device device_;
+  std::vector<eval::ShadingMethod> methods_ = {eval::one_albedo_method()};
+  std::pair<std::string, std::shared_ptr<net::FaceNet>> face_;
+  std::vector<std::pair<std::string, std::shared_ptr<net::TorchShadingNet>>> diffuse_;
+};
+
 }  // namespace
 
 int eval_shading(const EvalOptions& options) {
   const synth::ShardReader faces(options.data);
-  std::vector<eval::ShadingMethod> methods = {eval::one_albedo_method()};
-  for (const std::string& weights : options.weights) {
-    const auto [name, file] = name_and_file(weights);
-    const auto net = std::make_shared<net::FaceNet>(file, net::FaceNetOptions{.threads = options.threads});
-    methods.push_back(by_region("one albedo a region, highlights of " + name, net));
-    methods.push_back(network(name, net));
-  }
+  const std::vector<eval::ShadingMethod> methods = Rows(options).methods();
   const eval::ScoreTable table =
       eval::measure_shading(faces, methods, {.samples = options.samples, .progress = eval_progress()});
   fmt::print("{} photos of {}.\n", table.rows().size() / std::max<std::size_t>(1, methods.size()), options.data);
