@@ -4,6 +4,9 @@
 #ifdef FACEPROBE_HAS_SYNTH
 #include "one_head.h"
 #endif
+#ifdef FACEPROBE_HAS_TRAIN
+#include "shading_split.h"
+#endif
 
 #include <charconv>
 #include <cmath>
@@ -48,6 +51,20 @@ void choose_geometry(const SharedOptions& options, pipeline::EstimateOptions& ou
   out.surface_fit = surface_of_head(options.head, options.threads);
 #else
   throw Error(ExitCode::kUsage, "--geometry 3dmm is not in this program: it was built without head models.");
+#endif
+}
+
+void choose_shading(const SharedOptions& options, pipeline::EstimateOptions& out) {
+  out.shading = one_of(options.shading, "--shading", "net", pipeline::ShadingSource::kNet, "regions",
+                       pipeline::ShadingSource::kRegions);
+#ifdef FACEPROBE_HAS_TRAIN
+  if (options.shading_weights.empty()) return;
+  if (out.shading != pipeline::ShadingSource::kNet) {
+    throw Error(ExitCode::kUsage, "--shading-weights names the network that splits the diffuse layer, --shading " +
+                                      options.shading + " splits it without one; leave one of them out.");
+  }
+  out.shading = pipeline::ShadingSource::kGiven;
+  out.shading_split = split_by_weights(options.shading_weights, options.deterministic ? 1 : options.threads);
 #endif
 }
 
@@ -105,6 +122,13 @@ void add_solver_options(CLI::App& command, SharedOptions& options) {
                   "what splits the diffuse layer: net (trained), or regions (one albedo a region)")
       ->type_name("{net,regions}")
       ->capture_default_str();
+#ifdef FACEPROBE_HAS_TRAIN
+  command
+      .add_option("--shading-weights", options.shading_weights,
+                  "weights of the paper's Albedo-Shading network, which then splits the diffuse layer in the place of "
+                  "--shading and says what colour --solver paper gives to highlights; default: none")
+      ->type_name("FILE");
+#endif
   command
       .add_option(
           "--prior", options.prior,
@@ -176,8 +200,7 @@ pipeline::EstimateOptions estimate_options(const SharedOptions& options) {
       throw Error(ExitCode::kUsage, "--weights are the network's; --separator " + options.separator + " takes none.");
   }
   choose_geometry(options, out);
-  out.shading = one_of(options.shading, "--shading", "net", pipeline::ShadingSource::kNet, "regions",
-                       pipeline::ShadingSource::kRegions);
+  choose_shading(options, out);
   out.prior =
       one_of(options.prior, "--prior", "net", pipeline::PriorSource::kNet, "smooth", pipeline::PriorSource::kSmooth);
   out.solve.solver = lighting::solver_from_name(options.solver);

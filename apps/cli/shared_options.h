@@ -20,6 +20,7 @@ struct SharedOptions {
   std::string geometry = "net";
   std::string head;  // of geometry "3dmm"
   std::string shading = "net";
+  std::string shading_weights;  // of a network in the place of `shading`; empty = none
   std::string prior = "net";
   std::optional<double> focal_px;
   int iterations = pipeline::EstimateOptions{}.solve.iterations;

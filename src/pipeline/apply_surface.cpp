@@ -24,13 +24,13 @@ void apply_regions(const Surface& surface, face::FaceGeometry& geometry) {
   }
 }
 
-AlbedoShading split_diffuse(const Surface& surface, const Image& diffuse, const ByteImage& skin) {
+AlbedoShading split_diffuse(const Image& shading, const Image& diffuse, const ByteImage& skin) {
   constexpr float kDarkest = 1e-4F;
   AlbedoShading out{Image(diffuse.width(), diffuse.height(), 3), Image(diffuse.width(), diffuse.height(), 3),
                     Eigen::Vector3f::Ones()};
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < skin.values().size(); ++i) {
-    const float* light = surface.shading.data() + 3 * i;
+    const float* light = shading.data() + 3 * i;
     for (std::size_t c = 0; c < 3; ++c) {
       out.albedo.data()[3 * i + c] = diffuse.data()[3 * i + c] / std::max(kDarkest, light[c]);
       if (skin.data()[i] != 0) out.shading.data()[3 * i + c] = light[c];

@@ -15,7 +15,7 @@ struct AlbedoShading {
   Image shading;                 // H x W x 3; 0 off the skin
   Eigen::Vector3f light_colour;  // mean shading on the skin, green = 1
 };
-// albedo * shading = diffuse on the skin (`skin`: H x W x 1, non-zero).
-AlbedoShading split_diffuse(const Surface& surface, const Image& diffuse, const ByteImage& skin);
+// albedo * shading = diffuse on the skin (`skin`: H x W x 1, non-zero). `shading`: H x W x 3, on the skin and off it.
+AlbedoShading split_diffuse(const Image& shading, const Image& diffuse, const ByteImage& skin);
 
 }  // namespace faceprobe::pipeline

@@ -37,6 +37,8 @@ std::string EstimateOptions::validate() const {
   if (sh_order < 0 || sh_order > 10) return "sh_order must be from 0 to 10, found " + std::to_string(sh_order) + ".";
   if (normals == NormalSource::kFit && !surface_fit)
     return "Normals of a fitted head model need the model; set surface_fit, such as pipeline::head_geometry().";
+  if (shading == ShadingSource::kGiven && !shading_split)
+    return "Shading that is given needs who gives it; set shading_split, such as layers() of a net::TorchShadingNet.";
   if (landmarks_px && landmarks_px->rows() != 5 && landmarks_px->rows() != 68) {
     return "Give 5 or 68 landmarks, found " + std::to_string(landmarks_px->rows()) + ".";
   }

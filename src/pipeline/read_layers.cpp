@@ -3,7 +3,9 @@
 #include "faceprobe/lighting/albedo.h"
 #include "faceprobe/pipeline/observe.h"
 #include "pipeline/apply_surface.h"
+#include "pipeline/given_shading.h"
 #include "pipeline/stopwatch.h"
+#include "pipeline/take_colour_off.h"
 
 #include <algorithm>
 
@@ -58,12 +60,19 @@ void read_layers(const FaceReader& reader, const EstimateOptions& options, const
   lap(watch, "highlights and normals");
 
   const ByteImage skin = skin_regions(face.geometry.region);
-  if (reading.surface && !reading.surface->shading.empty() && options.shading == ShadingSource::kNet) {
-    AlbedoShading split = split_diffuse(*reading.surface, face.layers.diffuse, skin);
+  Image shading;
+  if (options.shading == ShadingSource::kGiven && enough) {
+    shading = given_shading(options.shading_split, face.layers.diffuse, skin, face.clipped, options.threads);
+    if (grey) take_colour_off(shading);
+  } else if (options.shading == ShadingSource::kNet && reading.surface) {
+    shading = std::move(reading.surface->shading);
+  }
+  if (!shading.empty()) {
+    AlbedoShading split = split_diffuse(shading, face.layers.diffuse, skin);
     face.albedo = std::move(split.albedo);
     face.shading = std::move(split.shading);
     face.light_colour = split.light_colour;
-    face.sources.shading = ShadingSource::kNet;
+    face.sources.shading = options.shading;
   } else {
     const lighting::AlbedoModel albedo =
         lighting::fit_albedo(face.layers.diffuse, skin, face.clipped, face.geometry.normal_cam, grey);

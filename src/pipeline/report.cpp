@@ -72,7 +72,13 @@ const char* normals_name(NormalSource source) {
     default: return "mesh";
   }
 }
-const char* shading_name(ShadingSource source) { return source == ShadingSource::kNet ? "net" : "regions"; }
+const char* shading_name(ShadingSource source) {
+  switch (source) {
+    case ShadingSource::kNet: return "net";
+    case ShadingSource::kGiven: return "given";
+    default: return "regions";
+  }
+}
 const char* prior_name(PriorSource source) { return source == PriorSource::kNet ? "net" : "smooth"; }
 
 Json sources_json(const FaceSources& sources) {
@@ -116,7 +122,8 @@ Json options_json(const EstimateOptions& options) {
   return {{"separator", options.separator_name()},
           {"geometry", normals_name(options.classical && options.normals == NormalSource::kNet ? NormalSource::kMesh
                                                                                                : options.normals)},
-          {"shading", shading_name(options.classical ? ShadingSource::kRegions : options.shading)},
+          {"shading", shading_name(options.classical && options.shading == ShadingSource::kNet ? ShadingSource::kRegions
+                                                                                               : options.shading)},
           {"solver", lighting::solver_name(options.solve.solver)},
           {"prior", prior_name(options.asks_prior() ? PriorSource::kNet : PriorSource::kSmooth)},
           {"iterations", options.solve.iterations},

@@ -105,6 +105,15 @@ case_face_network() {
   expect_files scores calibration.html geometry.csv geometry.json geometry.png
   expect_exit 0 eval shading --data faces --weights mine=run/weights.safetensors --samples 4 --threads 1
   expect_stdout "| one albedo |"
+  # The paper's network of albedo and shading, which is given the layer that the face network leaves; and its part in an estimate.
+  echo '{"architecture": "albedo_shading", "batch": 2, "steps": 2, "network": {"divisor": 16}}' >split.json
+  expect_exit 0 train highlight --config split.json --data faces --validation faces -o split --threads 1
+  expect_exit 0 eval shading --data faces --weights mine=run/weights.safetensors --weights paper=split/weights.safetensors --samples 4 --threads 1
+  expect_stdout "| paper, highlights of mine |"
+  expect_exit 0 estimate "$photo" -o paper --solver paper --shading-weights split/weights.safetensors "${quick[@]}"
+  expect_json given paper/report.json options shading
+  expect_refused 5 "albedo_shading" estimate "$photo" -o other --shading-weights run/weights.safetensors
+  expect_refused 2 "leave one of them out" estimate "$photo" -o other --shading regions --shading-weights split/weights.safetensors
   expect_refused 5 "run/config.json" eval geometry --data faces --weights run/config.json
   expect_refused 3 "nowhere" mesh nowhere
 }

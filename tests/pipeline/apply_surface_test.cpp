@@ -64,7 +64,7 @@ TEST(ApplySurface, AlbedoTimesShadingIsTheDiffuseLayer) {
   }
   ByteImage skin(kSize, kSize, 1, 1);
   skin(1, 1) = 0;
-  const AlbedoShading split = split_diffuse(surface, diffuse, skin);
+  const AlbedoShading split = split_diffuse(surface.shading, diffuse, skin);
   for (int y = 0; y < kSize; ++y) {
     for (int x = 0; x < kSize; ++x) {
       for (int c = 0; c < 3; ++c) {

@@ -35,7 +35,7 @@
 
 namespace faceprobe::pipeline {
 
-// Where the normals, or albedo and shading come from. With a classical separator no network is asked: they are the mesh's and the regions'.
+// Where the normals, or albedo and shading come from. With a classical separator no network of ours is asked: they are the mesh's and the regions', but for what is given.
 enum class NormalSource {
   kMesh,  // the dense face mesh, posed
   kNet,   // the network, per pixel, with an error of its own
@@ -47,7 +47,11 @@ using SurfaceFit = std::function<void(const face::Face&, const face::Camera&, fa
 enum class ShadingSource {
   kRegions,  // one albedo a region, see lighting/albedo.h
   kNet,      // the network's shading; what the diffuse layer is beyond it is albedo
+  kGiven,    // the same with the shading of EstimateOptions::shading_split
 };
+// The shading in a face's diffuse layer (a crop of one face of at most 128 px, H x W x 3, linear): as large, finite, 0 or more, at any level.
+// Such as that of the paper's Albedo-Shading network, net::TorchShadingNet, which tells by it what colour highlights have (lighting/recolour.h).
+using ShadingSplit = std::function<Image(const Image& diffuse)>;
 
 // What light the transport solver starts from, and leaves where no skin looks.
 enum class PriorSource {
@@ -63,6 +67,7 @@ struct EstimateOptions {
   NormalSource normals = NormalSource::kNet;
   SurfaceFit surface_fit;  // for NormalSource::kFit
   ShadingSource shading = ShadingSource::kNet;
+  ShadingSplit shading_split;             // for ShadingSource::kGiven
   PriorSource prior = PriorSource::kNet;  // with a classical separator the smooth one, which needs no network
   std::filesystem::path prior_weights;    // empty = those that come with the program
   // Least share of a face's crop that the photo must show for the network's layers; below, the classical separator and the regions step in,
