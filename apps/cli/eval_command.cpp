@@ -34,6 +34,7 @@ int run(const EvalOptions& options) {
   if (options.stage == "geometry") return eval_geometry(options);
   if (options.stage == "shading") return eval_shading(options);
   if (options.stage == "relight") return eval_relight(options);
+  if (options.stage == "direction") return eval_direction(options);
   if (options.stage == "insert") return eval_insert(options);
   if (options.stage == "triangulate") return eval_triangulate(options);
   if (options.stage == "cases") return eval_cases(options);
@@ -47,11 +48,12 @@ void add_eval(CLI::App& program, Action& action) {
   auto options = std::make_shared<EvalOptions>();
   CLI::App* command = program.add_subcommand("eval", "measures a stage on data whose answer is known");
   command->add_option("STAGE", options->stage, "what to measure")
-      ->check(CLI::IsMember(
-          {"highlight", "geometry", "shading", "relight", "insert", "triangulate", "cases", "export-cases"}));
+      ->check(CLI::IsMember({"highlight", "geometry", "shading", "relight", "direction", "insert", "triangulate",
+                             "cases", "export-cases"}));
   command
       ->add_option("--data", options->data,
-                   "folder that `faceprobe synth` wrote; for cases: with one folder a case, see docs/cases.md; "
+                   "folder that `faceprobe synth` wrote; for direction: the one that docs/data.md lays out; for cases: "
+                   "with one folder a case, see docs/cases.md; "
                    "default: none, it has to be named")
       ->type_name("DIR");
   command
@@ -69,8 +71,8 @@ void add_eval(CLI::App& program, Action& action) {
   command->add_option("--rows", options->rows, "photos in that picture")->capture_default_str()->check(CLI::Range(1, 200));
   command
       ->add_option("--head", options->head,
-                   "for geometry: head model whose fit to the landmarks is a row, as --geometry 3dmm of estimate; "
-                   "default: no such row")
+                   "for geometry and for --normals 3dmm: head model whose fit to the landmarks is a row, as --geometry "
+                   "3dmm of estimate; default: no such row")
       ->type_name("PATH");
   command
       ->add_option("--object", options->object,
@@ -84,15 +86,35 @@ void add_eval(CLI::App& program, Action& action) {
           "apart")
       ->type_name("FILE");
   command
-      ->add_option("--training", options->training,
-                   "for relight: data whose mean light is a row, and which Knorr and Kurz learn from where it is "
-                   "traced; default: no such rows")
+      ->add_option(
+          "--training", options->training,
+          "for relight and direction: data whose mean light is a row, and which Knorr and Kurz learn from where it is "
+          "traced; default: no such rows")
       ->type_name("DIR");
   command
       ->add_option("--prior-weights", options->prior,
-                   "for relight, insert, triangulate, cases: weights of the light prior; default: those that come with "
+                   "for relight, direction, insert, triangulate, cases: weights of the light prior; default: those "
+                   "that come with "
                    "the program")
       ->type_name("FILE");
+  command->add_option("--set", options->set, "for direction: the photos to measure on")
+      ->check(CLI::IsMember({"yale", "london", "all"}))
+      ->capture_default_str();
+  command->add_option("--every", options->every, "for direction: every n-th photo of Yale B and person of London alone")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 100000));
+  command
+      ->add_option("--normals", options->normals,
+                   "for direction: our rows with normals from these, in the place of all others, separated by commas: "
+                   "mesh, net, or 3dmm (the head model of --head, fitted); default: the usual rows")
+      ->type_name("NORMALS,...")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command
+      ->add_option("--rivals", options->rivals,
+                   "for direction: folder of weights of rival networks, such as legendre.safetensors; default: no such "
+                   "rows")
+      ->type_name("DIR");
   command->add_flag("--ablation", options->ablation, "for relight: rows with normals or layers known");
   command
       ->add_option(
@@ -115,6 +137,7 @@ void add_eval(CLI::App& program, Action& action) {
       "Prints Markdown.\n\nExamples:\n  faceprobe eval highlight --data faces/dev --weights run/weights.safetensors -o "
       "out\n"
       "  faceprobe eval relight --data faces/dev --scenes scenes.csv\n"
+      "  faceprobe eval direction --data data --every 12 --normals mesh,net\n"
       "  faceprobe eval export-cases --data faces/dev --samples 20 -o cases\n"
       "  faceprobe eval cases --data cases --method \"mine=python3 mine.py {case} {out}\" -o out");
   const CLI::App* paper = add_eval_paper(*command, action);

@@ -31,6 +31,7 @@ namespace {
 
 constexpr const char* kHighlightRivals[] = {"mscr.safetensors", "finetuned.safetensors", "shi.safetensors"};
 constexpr const char* kLightRivals[] = {"gardner.safetensors", "legendre.safetensors", "sky.safetensors"};
+constexpr const char* kFaceRivals[] = {"legendre.safetensors"};
 
 struct Part {
   const char* name;
@@ -41,7 +42,7 @@ struct Part {
 constexpr std::array kParts = {Part{"highlights", highlight_sections, kHighlightRivals},
                                Part{"objects", object_sections},
                                Part{"relighting", relight_sections, kLightRivals, true},
-                               Part{"directions", direction_sections},
+                               Part{"directions", direction_sections, kFaceRivals},
                                Part{"triangulation", room_sections},
                                Part{"ablations", ablation_sections}};
 

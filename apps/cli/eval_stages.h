@@ -20,8 +20,13 @@ struct EvalOptions {
   int rows = 12;  // of pictures
   int samples = 100;
   int threads = 0;
-  std::string head;  // of the stage geometry: a head model to fit; empty = no such row
-  // Of the stages relight and insert.
+  std::string head;  // of the stages geometry and direction: a head model to fit; empty = no such row
+  // Of the stage direction.
+  std::string set = "all";           // yale, london or all
+  int every = 3;                     // every n-th photo and person
+  std::vector<std::string> normals;  // mesh, net, 3dmm: rows by normals alone; empty = the usual rows
+  std::string rivals;                // folder of weights of networks that are rows; empty = no such rows
+  // Of the stages relight, insert and direction.
   std::string object;    // OBJ file; empty = a sphere. Of insert: a shape's name or a file
   std::string scenes;    // table of the maps' scenes; empty = not told apart
   std::string training;  // folder whose mean light is a row
@@ -36,6 +41,7 @@ int eval_highlight(const EvalOptions& options);
 int eval_geometry(const EvalOptions& options);
 int eval_shading(const EvalOptions& options);
 int eval_relight(const EvalOptions& options);
+int eval_direction(const EvalOptions& options);
 int eval_insert(const EvalOptions& options);
 int eval_triangulate(const EvalOptions& options);
 int eval_cases(const EvalOptions& options);

@@ -1,15 +1,8 @@
 #include "relight_methods.h"
 
-#include "faceprobe/core/angles.h"
-#include "faceprobe/core/error.h"
-#include "faceprobe/io/photo.h"
-#include "faceprobe/lighting/face_features.h"
-#include "faceprobe/lighting/harmonics.h"
-#include "faceprobe/lighting/lombardi_nishino.h"
-#include "faceprobe/lighting/radiance_transfer.h"
+#include "face_light_methods.h"
 #include "faceprobe/pipeline/estimate.h"
 #include "faceprobe/pipeline/observe.h"
-#include "faceprobe/synth/traced.h"
 #include "shared_estimate.h"
 
 #include <optional>
@@ -22,28 +15,6 @@ namespace {
 using pipeline::EstimateOptions;
 using pipeline::FaceEstimate;
 using SharedPtr = std::shared_ptr<SharedEstimate>;
-
-// One lamp where the brightest highlight's mirror direction points, and an even surround, as strong as fit the shading best.
-Eigen::MatrixX3f brightest_spot(const lighting::Observations& o, const SphereGrid& grid) {
-  Eigen::Index spot = 0;
-  o.highlight.rowwise().sum().maxCoeff(&spot);
-  const Eigen::RowVector3f normal = o.normal.row(spot);
-  const Eigen::RowVector3f mirrored = 2 * normal.dot(o.view.row(spot)) * normal - o.view.row(spot);
-  Eigen::Matrix2f products = Eigen::Matrix2f::Identity() * 1e-6F;
-  Eigen::Matrix<float, 2, 3> right = Eigen::Matrix<float, 2, 3>::Zero();
-  for (Eigen::Index i = 0; i < o.count(); ++i) {
-    const Eigen::Vector2f row(1, std::max(0.0F, o.normal.row(i).dot(mirrored)));
-    products += o.weight[i] * row * row.transpose();
-    right += o.weight[i] * row * o.shading.row(i);
-  }
-  const Eigen::Matrix<float, 2, 3> fit = products.inverse() * right;
-  Eigen::MatrixX3f light(grid.cell_count(), 3);
-  light.rowwise() = fit.row(0).cwiseMax(0.0F);
-  // A lamp of one cell whose irradiance over pi is the fit's.
-  const auto cell_over_pi = static_cast<float>(grid.cell_solid_angle() / kPi);
-  light.row(grid.cell_of(mirrored.transpose())) += fit.row(1).cwiseMax(0.0F) / cell_over_pi;
-  return light;
-}
 
 face::FaceGeometry true_geometry(const eval::LightInput& input) {
   const synth::ViewLayers& view = input.view;
@@ -122,45 +93,25 @@ eval::LightMethod by_paper(const SharedPtr& shared) {
                       [paper](const lighting::Observations& o) { return lighting::solve(o, paper).radiance; });
 }
 
-eval::LightMethod by_harmonics(const SharedPtr& shared, const std::shared_ptr<SphereGrid>& grid) {
-  return other_solver("harmonics of order 2 from the shading", shared, [grid](const lighting::Observations& o) {
-    return lighting::radiance_of_harmonics(lighting::fit_harmonics(o, 2), *grid);
-  });
-}
-
-// Learns from what estimates read from the training data's photos (`faceprobe trace`); nothing where that is not there.
-std::optional<eval::LightMethod> by_learnt_transfer(const std::filesystem::path& training, const SharedPtr& shared,
-                                                    const std::shared_ptr<SphereGrid>& grid) {
-  lighting::RadianceTransferLearner learner;
-  for (const synth::TracedPhoto& photo : synth::read_traced(training)) {
-    if (photo.features.size() != lighting::kFaceFeatures) {
-      throw Error(ExitCode::kInput,
-                  "What was read from the photos in " + training.string() +
-                      " is of another version. Remove its traced-*.safetensors and run `faceprobe trace` again.");
-    }
-    learner.add(photo.features, photo.light);
-  }
-  if (learner.examples() == 0) return std::nullopt;
-  return other_solver("knorr and kurz", shared, [transfer = learner.learn(), grid](const lighting::Observations& o) {
-    return lighting::radiance_of_harmonics(transfer.solve(lighting::face_features(o)), *grid);
-  });
-}
-
-eval::LightMethod by_joint_estimate(const SharedPtr& shared, const std::shared_ptr<SphereGrid>& grid) {
-  lighting::JointOptions options;
-  options.threads = shared->options().threads;
-  return other_solver("lombardi and nishino, lite", shared, [options, grid](const lighting::Observations& o) {
-    const lighting::JointEstimate found = lighting::solve_lombardi_nishino(o, options);
-    return grid_from_grid(found.radiance, SphereGrid(found.nside), *grid);
-  });
+eval::LightMethod on_photos(const FaceLightMethod& method, const SharedPtr& shared) {
+  return {method.name, [method, shared](const eval::LightInput& input) {
+            const FaceEstimate* face = shared->of(input);
+            return face == nullptr ? Eigen::MatrixX3f() : method.light({*face, input.photo.linear});
+          }};
 }
 
 }  // namespace
 
+Eigen::MatrixX3f mean_training_light(const std::filesystem::path& training, int nside) {
+  constexpr int kPhotos = 1000;
+  return eval::mean_light(synth::ShardReader(training), kPhotos, nside);
+}
+
 std::vector<eval::LightMethod> insert_methods(const RelightRows& rows) {
   const auto shared = std::make_shared<SharedEstimate>(estimate_options(rows));
   const auto grid = std::make_shared<SphereGrid>(rows.nside);
-  return {whole("transport", shared), without_prior(shared), by_paper(shared), by_harmonics(shared, grid),
+  return {whole("transport", shared), without_prior(shared), by_paper(shared),
+          on_photos(harmonics_of_shading(rows.nside), shared),
           other_solver("ambient, as bright as the shading", shared, [grid](const lighting::Observations& o) {
             const Eigen::RowVector3f level = (o.weight.transpose() * o.shading) / o.weight.sum();
             return Eigen::MatrixX3f(level.replicate(grid->cell_count(), 1));
@@ -170,7 +121,6 @@ std::vector<eval::LightMethod> insert_methods(const RelightRows& rows) {
 std::vector<eval::LightMethod> relight_methods(const RelightRows& rows) {
   const EstimateOptions options = estimate_options(rows);
   const auto shared = std::make_shared<SharedEstimate>(options);
-  const auto grid = std::make_shared<SphereGrid>(rows.nside);
   std::vector<eval::LightMethod> methods;
   methods.push_back(whole("transport", shared));
   methods.push_back(without_prior(shared));
@@ -183,18 +133,15 @@ std::vector<eval::LightMethod> relight_methods(const RelightRows& rows) {
     methods.push_back(partly_known("normals known", shared, true, false));
     methods.push_back(partly_known("layers known", shared, false, true));
   }
-  methods.push_back(by_harmonics(shared, grid));
+  methods.push_back(on_photos(harmonics_of_shading(rows.nside), shared));
   if (!rows.training.empty()) {
-    if (std::optional<eval::LightMethod> learnt = by_learnt_transfer(rows.training, shared, grid))
-      methods.push_back(std::move(*learnt));
+    if (const std::optional<FaceLightMethod> learnt = learnt_transfer(rows.training, rows.nside))
+      methods.push_back(on_photos(*learnt, shared));
   }
-  methods.push_back(by_joint_estimate(shared, grid));
-  methods.push_back(other_solver("lamp at the brightest highlight", shared,
-                                 [grid](const lighting::Observations& o) { return brightest_spot(o, *grid); }));
+  methods.push_back(on_photos(joint_estimate(rows.nside, shared->options().threads), shared));
+  methods.push_back(on_photos(lamp_at_brightest_highlight(rows.nside), shared));
   if (!rows.training.empty()) {
-    const synth::ShardReader training(rows.training);
-    methods.push_back(
-        eval::constant_method("mean light of the training data", eval::mean_light(training, 1000, rows.nside)));
+    methods.push_back(eval::constant_method(kMeanLight, mean_training_light(rows.training, rows.nside)));
   }
   methods.push_back(eval::ambient_method(rows.nside));
   methods.push_back(eval::harmonics_method(2, rows.nside));

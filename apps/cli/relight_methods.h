@@ -19,6 +19,9 @@ struct RelightRows {
   int nside = 16;
   int threads = 0;
 };
+// What the rows of the mean light are called, and that light: of a thousand of the training data's photos, each as bright. Cells x 3.
+inline constexpr const char* kMeanLight = "mean light of the training data";
+Eigen::MatrixX3f mean_training_light(const std::filesystem::path& training, int nside);
 std::vector<eval::LightMethod> relight_methods(const RelightRows& rows);
 // Those of `faceprobe eval insert`, whose lights are in the photo's unit.
 std::vector<eval::LightMethod> insert_methods(const RelightRows& rows);

@@ -67,21 +67,42 @@ eval::LightMethod of_face(const std::string& name, const std::shared_ptr<net::Li
 constexpr const char* kGardner = "gardner, trained on few maps";      // 2017
 constexpr const char* kHoldGeoffroy = "hold-geoffroy, preetham sky";  // 2017
 constexpr const char* kLegendre = "legendre, from the face";          // 2020
+constexpr const char* kLegendreFile = "legendre.safetensors";
+
+// The weights of a row, or nothing and a sentence.
+std::optional<fs::path> weights_of(const fs::path& folder, const char* row, const char* file, std::string& missing) {
+  const fs::path path = folder / file;
+  if (!folder.empty() && fs::exists(path)) return path;
+  missing += std::string(missing.empty() ? "" : " ") + "No row of " + row + ": its weights, " + file +
+             ", are not in a folder that --rivals names; docs/training.md says how they are made.";
+  return std::nullopt;
+}
+
+// The window on the face, of the photo instead of the crop.
+Window in_photo(const Window& window, const face::Crop& crop) {
+  const Eigen::Vector2d corner = crop.photo_from_crop(window.left_px, window.top_px);
+  return {corner.x(), corner.y(), window.scale * crop.scale, window.width, window.height};
+}
 
 }  // namespace
 
+std::optional<FaceLightMethod> face_network_method(const fs::path& weights, std::string& missing) {
+  const std::optional<fs::path> file = weights_of(weights, kLegendre, kLegendreFile, missing);
+  if (!file) return std::nullopt;
+  return FaceLightMethod{
+      kLegendre, [network = std::make_shared<net::LightRegressor>(*file)](const FaceSeen& seen) -> Eigen::MatrixX3f {
+        const face::FaceGeometry& geometry = seen.face.geometry;
+        const std::optional<Window> window = net::face_window(geometry.region, network->picture_px());
+        if (!window) return {};
+        return network->light(resampled(seen.linear, in_photo(*window, geometry.crop), Outside::kEdge));
+      }};
+}
+
 RivalMethods rival_light_methods(const RivalRows& rows) {
   RivalMethods found;
-  // The weights of a row, or nothing and a sentence.
-  const auto weights_of = [&](const char* row, const char* file) -> std::optional<fs::path> {
-    const fs::path path = rows.weights / file;
-    if (!rows.weights.empty() && fs::exists(path)) return path;
-    found.missing += std::string(found.missing.empty() ? "" : " ") + "No row of " + row + ": its weights, " + file +
-                     ", are not in a folder that --rivals names; docs/training.md says how they are made.";
-    return std::nullopt;
-  };
-  const std::optional<fs::path> gardner = weights_of(kGardner, "gardner.safetensors");
-  const std::optional<fs::path> sky = weights_of(kHoldGeoffroy, "sky.safetensors");
+  const auto of = [&](const char* row, const char* file) { return weights_of(rows.weights, row, file, found.missing); };
+  const std::optional<fs::path> gardner = of(kGardner, "gardner.safetensors");
+  const std::optional<fs::path> sky = of(kHoldGeoffroy, "sky.safetensors");
   if (gardner || sky) {
     const auto scenes = std::make_shared<Backgrounds>(rows.maps, rows.recipe);
     if (gardner) {
@@ -92,7 +113,7 @@ RivalMethods rival_light_methods(const RivalRows& rows) {
           of_background(kHoldGeoffroy, std::make_shared<net::SkyRegressor>(*sky, rows.threads), scenes));
     }
   }
-  if (const auto legendre = weights_of(kLegendre, "legendre.safetensors"))
+  if (const auto legendre = of(kLegendre, kLegendreFile))
     found.methods.push_back(of_face(kLegendre, std::make_shared<net::LightRegressor>(*legendre)));
   return found;
 }

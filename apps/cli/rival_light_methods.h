@@ -2,9 +2,11 @@
 // Rows of light by networks that others have thought of, trained on what we have (docs/training.md): of the scene behind the head, or of the face
 // without any model of light.
 
+#include "face_light_methods.h"
 #include "faceprobe/eval/relight_benchmark.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,5 +25,9 @@ struct RivalMethods {
 // The networks of backgrounds see 60 degrees of the map straight behind the head, as sharp as the map is and without the head before it: more
 // than a photo would show them. They see it level; the photos' cameras tilt by some degrees. Throws Error(kModel), Error(kInput).
 RivalMethods rival_light_methods(const RivalRows& rows);
+
+// The one of these networks that sees the face, on any photo: where the estimate has skin, eyes or mouth is its face. Nothing, and a sentence more
+// in `missing`, where the folder lacks its weights. Throws Error(kModel).
+std::optional<FaceLightMethod> face_network_method(const std::filesystem::path& weights, std::string& missing);
 
 }  // namespace faceprobe::cli

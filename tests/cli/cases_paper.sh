@@ -81,6 +81,38 @@ case_eval_paper_programs() {
   expect_refused 2 "two methods called 'transport'" "${plain[@]}" --method "transport=./copy.sh {case} {out}"
 }
 
+# Directions of known lights, on photos whose light nobody has measured: what is printed, not how well.
+case_eval_direction() {
+  local limit_s=200
+  [ -f "$photo" ] || exit 77
+  expect_refused 3 "neither real/yaleB" eval direction --data .
+  mkdir -p real/yaleB/images real/portraits/london/{neutral_front,smiling_front}
+  expect_exit 0 synth --count 1 --size 192 --views 1 --lights 1 --seed 4 -o faces --preview real/yaleB/images/a.png --preview-count 1
+  printf 'file,subject,azimuth_deg,elevation_deg\na.png,a,10,20\n' >real/yaleB/lights.csv
+  printf '{"lights": [{"direction_x_right_y_up_z_to_camera": [0.5, 0.5, 0.7]}]}' >real/portraits/london/lights_from_catchlights.json
+  cp "$photo" real/portraits/london/neutral_front/001_03.jpg
+  cp "$photo" real/portraits/london/smiling_front/001_08.jpg
+  expect_refused 2 "--head" eval direction --data . --normals mesh,3dmm
+  expect_refused 2 "--normals" eval direction --data . --normals guessed
+  expect_refused 2 "--every" eval direction --data . --every 0
+  expect_exit 0 eval direction --data . -o scores
+  expect_files scores direction.csv direction.html direction.json
+  local text
+  for text in "## One flash on a real face" "## Three studio lights on many people" "| lombardi and nishino, lite |" \
+    "| harmonics of order 2 from the shading |" "No row of legendre" "Gardner's and Hold-Geoffroy's networks have no row"; do
+    expect_stdout "$text"
+  done
+  # Twice the same photo: a smile that is none turns no light.
+  # The table's title has a comma, so its row is the fourth.
+  awk -F, '$1 == "direction_london" && $4 ~ /^harmonics/ && $5 == "by a smile" {found = $6 != "" && $6 < 0.01} END {exit !found}' scores/direction.csv ||
+    fail "the same photo has two lights"
+  expect_exit 0 eval direction --data . --set london --normals mesh,net
+  expect_stdout "| normals of the mesh |"
+  expect_stdout "| normals of the net, without the prior |"
+  ! grep -qF "One flash" "$work/stdout" || fail "a set that was not asked for"
+  ! grep -qF "lombardi" "$work/stdout" || fail "rivals among the rows by normals"
+}
+
 # bench/rivals.sh, with a program in the place of ours that trains nothing: what is done in which order, and what a stop leaves.
 case_rivals() {
   local script=$here/../../bench/rivals.sh name

@@ -66,6 +66,19 @@ TEST(MeasureYale, StraightAheadIsOffByTheFlashsOwnAngle) {
   EXPECT_EQ(scores.known_persons("main_light_deg"), (std::vector<std::string>{"a", "a", "b"}));
 }
 
+TEST(NormalsSetting, ChangesTheNormalsAlone) {
+  pipeline::EstimateOptions base;
+  base.max_patches = 77;
+  for (const pipeline::NormalSource source :
+       {pipeline::NormalSource::kMesh, pipeline::NormalSource::kNet, pipeline::NormalSource::kFit}) {
+    const DirectionSetting setting = normals_setting(source, base);
+    EXPECT_EQ(setting.options.normals, source);
+    EXPECT_EQ(setting.options.max_patches, 77);
+  }
+  EXPECT_EQ(normals_setting(pipeline::NormalSource::kMesh, base).name, "normals of the mesh");
+  EXPECT_EQ(normals_option(pipeline::NormalSource::kFit), "3dmm");
+}
+
 void write_london(const std::filesystem::path& folder) {
   for (const char* name : {"neutral_front/001_03.png", "smiling_front/001_08.png", "neutral_front/002_03.png",
                            "neutral_front/004_03.png", "smiling_front/004_08.png"})

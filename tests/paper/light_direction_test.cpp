@@ -35,6 +35,15 @@ TEST(LightDirections, TheBrightestCellStandsInForAMainLight) {
   EXPECT_EQ(light_directions(result), std::vector<Eigen::Vector3d>{Eigen::Vector3d::UnitX()});
 }
 
+TEST(ResultOf, HasTheMainLightsOfWhatIsCertain) {
+  const Eigen::MatrixX3f radiance = lamp_and_ambient(5).light.radiance;
+  const pipeline::LightResult result = result_of(radiance);
+  ASSERT_EQ(result.lights.size(), 1U);
+  // The lobe is even around the lamp.
+  EXPECT_LT(angle_between_deg(light_directions(result)[0], kLamp), degrees(SphereGrid(8).cell_radius()));
+  EXPECT_TRUE(result_of(radiance, Eigen::VectorXf::Zero(radiance.rows())).lights.empty());
+}
+
 TEST(LightDirections, AnEvenSkyHasNone) {
   EXPECT_TRUE(light_directions(lamp_and_ambient(0)).empty());
   EXPECT_FALSE(energy_centroid(lamp_and_ambient(0)));

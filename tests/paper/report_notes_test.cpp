@@ -68,6 +68,17 @@ TEST(MakeReadable, AnEarlierReportOfTheSamePartsIsNotTold) {
   EXPECT_EQ(report.made_with, told);
 }
 
+TEST(MakeReadable, NamesTheCommandOfToday) {
+  eval::PaperReport report;
+  report.sections.push_back({.id = "direction_yale", .title = "Y", .command = "bench_direction --data DIR --set yale"});
+  make_readable(report);
+  EXPECT_EQ(report.sections[0].command, "faceprobe eval direction --data DIR --set yale");
+  EXPECT_EQ(report.sections[0].notes.find("Gardner"), std::string::npos);  // no rivals, nothing to say of them
+  report.sections[0].tables.push_back({.title = "T", .rows = {{.name = "lombardi and nishino, lite"}}});
+  make_readable(report);
+  EXPECT_NE(report.sections[0].notes.find("Gardner"), std::string::npos);
+}
+
 TEST(MakeReadable, BringsEarlyReportsUpToDate) {
   eval::PaperReport report = early_report();
   EXPECT_TRUE(report.terms.empty());

@@ -1,6 +1,7 @@
 // Sections without their data say so, and those with them show what was measured.
 #include "faceprobe/io/picture_file.h"
-#include "paper/plan.h"
+#include "paper/directions.h"
+#include "support/expect_error.h"
 #include "support/temp_folder.h"
 
 #include <gtest/gtest.h>
@@ -10,6 +11,7 @@
 namespace faceprobe::cli::testing {
 namespace {
 
+using faceprobe::testing::expect_error;
 using faceprobe::testing::TempFolder;
 
 PaperPlan plan_of(const TempFolder& folder) {
@@ -20,11 +22,27 @@ PaperPlan plan_of(const TempFolder& folder) {
 
 TEST(DirectionSections, WithoutTheirDataSayWhatIsMissing) {
   const TempFolder folder;
-  const Sections sections = direction_sections(plan_of(folder));
+  EXPECT_FALSE(has_directions(folder.path()));
+  const Sections sections = measure_directions({.data = folder.path()});
   ASSERT_EQ(sections.size(), 2U);
   EXPECT_NE(sections[0].missing.find("real/yaleB"), std::string::npos);
   EXPECT_NE(sections[1].missing.find("real/portraits/london"), std::string::npos);
   for (const eval::ReportSection& section : sections) EXPECT_TRUE(section.tables.empty() && section.plots.empty());
+}
+
+TEST(DirectionSections, OneSetAloneIsOneSection) {
+  const TempFolder folder;
+  const Sections sections =
+      measure_directions({.data = folder.path(),
+                          .every = 5,
+                          .yale = false,
+                          .normals = {pipeline::NormalSource::kMesh, pipeline::NormalSource::kFit}});
+  ASSERT_EQ(sections.size(), 1U);
+  EXPECT_EQ(sections[0].command, "faceprobe eval direction --data DIR --set london --every 5 --normals mesh,3dmm");
+}
+
+TEST(DirectionSections, AStepOfNothingIsRefused) {
+  expect_error(ExitCode::kUsage, {"every is 0"}, [] { measure_directions({.data = "nowhere", .every = 0}); });
 }
 
 TEST(ObjectSections, WithoutTheirDataSayWhatIsMissing) {

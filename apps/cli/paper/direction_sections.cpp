@@ -1,6 +1,7 @@
+#include "faceprobe/core/error.h"
 #include "paper/derived_tables.h"
+#include "paper/directions.h"
 #include "paper/london.h"
-#include "paper/plan.h"
 #include "paper/yale.h"
 
 #include <algorithm>
@@ -19,20 +20,48 @@ using eval::Better;
 using highlight::Separator;
 using lighting::Solver;
 
-const std::set<std::string> kOurSettings = {"transport, net"};
+const std::set<std::string> kOurSettings = {"transport, net", "normals of the net"};
 constexpr const char* kLamp = "single lamp by least squares";
 
-// The single lamp as a method of its own, by the classical layers, beside the settings' main lights.
-eval::ScoreTable main_lights_and_lamp(const eval::ScoreTable& scores, const std::string& lamp_of) {
+// Of each source of normals, with the light prior and, where `both`, without it.
+std::vector<DirectionSetting> settings_by_normals(const DirectionRows& rows, bool both) {
+  std::vector<DirectionSetting> settings;
+  for (const pipeline::NormalSource normals : rows.normals) {
+    settings.push_back(normals_setting(normals, rows.base));
+    if (!both) continue;
+    settings.push_back(settings.back());
+    settings.back().name += ", without the prior";
+    settings.back().options.prior = pipeline::PriorSource::kSmooth;
+  }
+  return settings;
+}
+
+// The single lamp as a method of its own beside the settings' main lights: named after the setting for each of `lamp_of`, or if that is one alone by itself.
+eval::ScoreTable main_lights_and_lamp(const eval::ScoreTable& scores, const std::set<std::string>& lamp_of) {
   eval::ScoreTable rows;
   rows.order_labels("flash", yale_flash_labels());
   for (const eval::ScoreRow& row : scores.rows()) {
     rows.add({row.method, row.sample, row.groups, {{"deg", row.metrics.at("main_light_deg")}}, row.person});
-    if (row.method == lamp_of)
-      rows.add({kLamp, row.sample, row.groups, {{"deg", row.metrics.at("lamp_deg")}}, row.person});
+    if (!lamp_of.contains(row.method)) continue;
+    const std::string name = lamp_of.size() > 1 ? kLamp + (", " + row.method) : std::string(kLamp);
+    rows.add({name, row.sample, row.groups, {{"deg", row.metrics.at("lamp_deg")}}, row.person});
   }
   return rows;
 }
+
+std::string command_of(const DirectionRows& rows, const std::string& set) {
+  std::string command = "faceprobe eval direction --data DIR --set " + set + " --every " + std::to_string(rows.every);
+  for (std::size_t i = 0; i < rows.normals.size(); ++i)
+    command += (i == 0 ? " --normals " : ",") + std::string(normals_option(rows.normals[i]));
+  return command;
+}
+
+// What a reader has to know of the rows by normals.
+constexpr const char* kByNormals =
+    "\n\nRows are our estimate with its normals from the mesh, from the network, or from a head model that is fitted "
+    "to "
+    "the landmarks. The light prior learnt from observations with the network's normals, which favours them; rows "
+    "without it start from a smooth fit to the shading.";
 
 eval::ReportPlot within_error(const eval::ScoreTable& scores, const std::string& metric, const std::string& title) {
   eval::ReportPlot plot = cumulative_of(scores, metric, title, "degrees", kOurSettings);
@@ -41,7 +70,34 @@ eval::ReportPlot within_error(const eval::ScoreTable& scores, const std::string&
   return plot;
 }
 
-eval::ReportSection yale_section(const std::vector<YalePicture>& pictures, const PaperPlan& plan, const PhotoDone& done) {
+struct YaleRows {
+  std::vector<DirectionSetting> settings;
+  std::set<std::string> lamp_of;  // the settings whose single lamp is told
+};
+
+// The crops are too tight for the prior to be asked.
+YaleRows yale_rows(const DirectionRows& rows) {
+  YaleRows yale;
+  if (!rows.normals.empty()) {
+    yale.settings = settings_by_normals(rows, false);
+    for (const DirectionSetting& setting : yale.settings) yale.lamp_of.insert(setting.name);
+    return yale;
+  }
+  yale.settings = {direction_setting(Solver::kTransport, {}, rows.base),
+                   direction_setting(Solver::kTransport, Separator::kYang, rows.base),
+                   direction_setting(Solver::kPaper, {}, rows.base)};
+  yale.settings[1].name = "transport, classical";
+  yale.lamp_of = {yale.settings[1].name};
+  if (rows.changed) {
+    yale.settings.push_back(direction_setting(Solver::kTransport, {}, rows.base));
+    yale.settings.back().name += ", codes taken for sRGB";
+    yale.settings.back().linear_codes = false;
+  }
+  return yale;
+}
+
+eval::ReportSection yale_section(const std::vector<YalePicture>& pictures, const DirectionRows& rows,
+                                 const PhotoDone& done) {
   eval::ReportSection section{
       .id = "direction_yale",
       .title = "One flash on a real face",
@@ -53,7 +109,7 @@ eval::ReportSection yale_section(const std::vector<YalePicture>& pictures, const
           "lives by highlights, has no answer. The single lamp, without other light and cast shadows, is a "
           "yardstick: it is what these pictures were made with.\n\n"
           "Intervals draw people with all of their pictures. Of so few people they are still somewhat too narrow.",
-      .command = "bench_direction --data DIR --set yale --every " + std::to_string(plan.direction_step())};
+      .command = command_of(rows, "yale")};
   if (pictures.empty()) {
     section.missing = "There are no pictures in real/yaleB of the data folder; docs/data.md says what belongs there.";
     return section;
@@ -62,14 +118,13 @@ eval::ReportSection yale_section(const std::vector<YalePicture>& pictures, const
   for (const YalePicture& picture : pictures) people.insert(picture.file.parent_path());
   section.text +=
       "\n\nThese are " + std::to_string(pictures.size()) + " pictures of " + std::to_string(people.size()) + " people.";
-  pipeline::EstimateOptions base;
-  base.threads = plan.threads;
-  std::vector<DirectionSetting> settings = {direction_setting(Solver::kTransport, {}, base),
-                                            direction_setting(Solver::kTransport, Separator::kYang, base),
-                                            direction_setting(Solver::kPaper, {}, base)};
-  settings[1].name = "transport, classical";
-  const eval::ScoreTable scores = measure_yale(pictures, settings, done);
-  const eval::ScoreTable main_light = main_lights_and_lamp(scores, settings[1].name);
+  const YaleRows yale = yale_rows(rows);
+  const bool usual = rows.normals.empty();
+  if (usual) section.missing = rows.rivals.missing;
+  if (!usual) section.text += kByNormals;
+  const eval::ScoreTable scores =
+      measure_yale(pictures, yale.settings, done, usual ? rows.rivals.methods : std::vector<FaceLightMethod>());
+  const eval::ScoreTable main_light = main_lights_and_lamp(scores, yale.lamp_of);
   section.tables = {
       table_of(main_light, "deg", "Main light, degrees from the flash", 1, kOurSettings),
       table_by_group(main_light, "deg", "flash", "Main light by the flash's degrees off the axis", 1, kOurSettings),
@@ -81,6 +136,12 @@ eval::ReportSection yale_section(const std::vector<YalePicture>& pictures, const
   section.plots = {within_error(main_light, "deg", "Pictures within an error of the main light"),
                    within_error(scores, "centroid_deg", "Pictures within an error of the centroid")};
   return section;
+}
+
+std::filesystem::path yale_folder(const std::filesystem::path& data) { return data / "real" / "yaleB"; }
+
+std::filesystem::path london_folder(const std::filesystem::path& data) {
+  return data / "real" / "portraits" / "london";
 }
 
 double mean_answer(const eval::ScoreTable& scores, const std::string& metric, const std::string& method) {
@@ -137,7 +198,22 @@ eval::ReportTable without_lone_intervals(eval::ReportTable table, const std::vec
   return table;
 }
 
-eval::ReportSection london_section(const LondonSet& london, const PaperPlan& plan, const PhotoDone& done) {
+std::vector<DirectionSetting> london_settings(const DirectionRows& rows) {
+  if (!rows.normals.empty()) return settings_by_normals(rows, true);
+  std::vector<DirectionSetting> settings = {direction_setting(Solver::kTransport, {}, rows.base),
+                                            direction_setting(Solver::kTransport, Separator::kYang, rows.base),
+                                            direction_setting(Solver::kTransport, Separator::kTan, rows.base),
+                                            direction_setting(Solver::kTransport, Separator::kShen, rows.base),
+                                            direction_setting(Solver::kPaper, {}, rows.base)};
+  if (rows.changed) {
+    settings.push_back(direction_setting(Solver::kTransport, {}, rows.base));
+    settings.back().name += ", without the prior";
+    settings.back().options.prior = pipeline::PriorSource::kSmooth;
+  }
+  return settings;
+}
+
+eval::ReportSection london_section(const LondonSet& london, const DirectionRows& rows, const PhotoDone& done) {
   eval::ReportSection section{
       .id = "direction_london",
       .title = "Three studio lights on many people",
@@ -148,21 +224,18 @@ eval::ReportSection london_section(const LondonSet& london, const PaperPlan& pla
           "Intervals draw people with both of their photos. The set does not say how light or dark a skin is; the "
           "ethnicity in its table is "
           "what comes nearest.",
-      .command = "bench_direction --data DIR --set london --every " + std::to_string(plan.direction_step())};
+      .command = command_of(rows, "london")};
   if (london.people.empty()) {
     section.missing =
         "There are no people with two photos in real/portraits/london of the data folder; docs/data.md says what "
         "belongs there.";
     return section;
   }
-  pipeline::EstimateOptions base;
-  base.threads = plan.threads;
-  const eval::ScoreTable scores = measure_london(
-      london,
-      {direction_setting(Solver::kTransport, {}, base), direction_setting(Solver::kTransport, Separator::kYang, base),
-       direction_setting(Solver::kTransport, Separator::kTan, base),
-       direction_setting(Solver::kTransport, Separator::kShen, base), direction_setting(Solver::kPaper, {}, base)},
-      done);
+  const bool usual = rows.normals.empty();
+  if (usual) section.missing = rows.rivals.missing;
+  if (!usual) section.text += kByNormals;
+  const eval::ScoreTable scores =
+      measure_london(london, london_settings(rows), done, usual ? rows.rivals.methods : std::vector<FaceLightMethod>());
   section.tables = {
       table_of(scores, "strongest_deg", "Strongest light, degrees from the nearest true one", 1, kOurSettings),
       agreement_table(scores),
@@ -178,19 +251,28 @@ eval::ReportSection london_section(const LondonSet& london, const PaperPlan& pla
 
 }  // namespace
 
-Sections direction_sections(const PaperPlan& plan) {
-  const std::filesystem::path yale = plan.data / "real" / "yaleB";
-  const std::filesystem::path portraits = plan.data / "real" / "portraits" / "london";
+bool has_directions(const std::filesystem::path& data) {
+  return std::filesystem::is_directory(yale_folder(data)) || std::filesystem::is_directory(london_folder(data));
+}
+
+Sections measure_directions(const DirectionRows& rows) {
+  if (rows.every < 1)
+    throw Error(ExitCode::kUsage, "every is " + std::to_string(rows.every) + "; it is 1 for all photos, or more.");
   std::vector<YalePicture> pictures;
   LondonSet london;
-  if (std::filesystem::is_directory(yale)) pictures = yale_pictures(yale, plan.direction_step());
-  if (std::filesystem::is_directory(portraits)) london = read_london(portraits, plan.direction_step());
+  if (rows.yale && std::filesystem::is_directory(yale_folder(rows.data)))
+    pictures = yale_pictures(yale_folder(rows.data), rows.every);
+  if (rows.london && std::filesystem::is_directory(london_folder(rows.data)))
+    london = read_london(london_folder(rows.data), rows.every);
   const int total = static_cast<int>(pictures.size() + 2 * london.people.size());
   int done = 0;
   const PhotoDone tell = [&] {
-    if (plan.progress) plan.progress(++done, total);
+    if (rows.progress) rows.progress(++done, total);
   };
-  return {yale_section(pictures, plan, tell), london_section(london, plan, tell)};
+  Sections sections;
+  if (rows.yale) sections.push_back(yale_section(pictures, rows, tell));
+  if (rows.london) sections.push_back(london_section(london, rows, tell));
+  return sections;
 }
 
 }  // namespace faceprobe::cli

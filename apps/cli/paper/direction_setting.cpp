@@ -1,5 +1,9 @@
 #include "paper/direction_setting.h"
 
+#include "faceprobe/core/error.h"
+
+#include <utility>
+
 namespace faceprobe::cli {
 
 DirectionSetting direction_setting(lighting::Solver solver, const std::optional<highlight::Separator>& classical,
@@ -11,11 +15,41 @@ DirectionSetting direction_setting(lighting::Solver solver, const std::optional<
   return {name, std::move(options)};
 }
 
+std::string_view normals_option(pipeline::NormalSource normals) {
+  switch (normals) {
+    case pipeline::NormalSource::kMesh: return "mesh";
+    case pipeline::NormalSource::kFit: return "3dmm";
+    case pipeline::NormalSource::kNet: break;
+  }
+  return "net";
+}
+
+DirectionSetting normals_setting(pipeline::NormalSource normals, const pipeline::EstimateOptions& base) {
+  pipeline::EstimateOptions options = base;
+  options.normals = normals;
+  switch (normals) {
+    case pipeline::NormalSource::kMesh: return {"normals of the mesh", std::move(options)};
+    case pipeline::NormalSource::kFit: return {"normals of a fitted head model", std::move(options)};
+    case pipeline::NormalSource::kNet: break;
+  }
+  return {"normals of the net", std::move(options)};
+}
+
 std::vector<pipeline::Estimator> estimators_of(const std::vector<DirectionSetting>& settings) {
   std::vector<pipeline::Estimator> estimators;
   estimators.reserve(settings.size());
   for (const DirectionSetting& setting : settings) estimators.emplace_back(setting.options);
   return estimators;
+}
+
+std::optional<pipeline::FaceEstimate> face_in(const pipeline::Estimator& estimator, const io::Photo& photo) {
+  try {
+    pipeline::Estimate estimate = estimator.estimate(photo);
+    return std::move(estimate.faces[estimate.largest]);
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::kNoFace) throw;
+    return std::nullopt;
+  }
 }
 
 }  // namespace faceprobe::cli

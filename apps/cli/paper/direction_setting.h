@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace faceprobe::cli {
@@ -26,7 +27,15 @@ using PhotoDone = std::function<void()>;
 DirectionSetting direction_setting(lighting::Solver solver, const std::optional<highlight::Separator>& classical,
                                    const pipeline::EstimateOptions& base);
 
+// "mesh", "net", "3dmm": what options call a source of normals.
+std::string_view normals_option(pipeline::NormalSource normals);
+// "normals of the mesh": `base` with these; its surface_fit has to be there for those of the fitted head.
+DirectionSetting normals_setting(pipeline::NormalSource normals, const pipeline::EstimateOptions& base);
+
 // Loads the models of each.
 std::vector<pipeline::Estimator> estimators_of(const std::vector<DirectionSetting>& settings);
+
+// The largest face of the photo; nothing where none is found.
+std::optional<pipeline::FaceEstimate> face_in(const pipeline::Estimator& estimator, const io::Photo& photo);
 
 }  // namespace faceprobe::cli

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace faceprobe::cli {
 
@@ -30,6 +31,13 @@ Eigen::VectorXd luminances(const lighting::Light& light) {
     values[i] = luminance(light.radiance(i, 0), light.radiance(i, 1), light.radiance(i, 2));
   }
   return values;
+}
+
+pipeline::LightResult result_of(Eigen::MatrixX3f radiance, const Eigen::VectorXf& confidence) {
+  pipeline::LightResult result;
+  result.light.radiance = std::move(radiance);
+  result.lights = lighting::main_lights(result.light.radiance, grid_of(result.light), {}, confidence);
+  return result;
 }
 
 std::vector<Eigen::Vector3d> light_directions(const pipeline::LightResult& result) {

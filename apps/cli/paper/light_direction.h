@@ -12,6 +12,10 @@ namespace faceprobe::cli {
 // Of each cell of the light's grid.
 Eigen::VectorXd luminances(const lighting::Light& light);
 
+// A light of another method as a result that the functions below take: with its main lights, and without maps. `radiance`: cells of a sphere grid x 3.
+// `confidence`: of each cell; empty = all certain.
+pipeline::LightResult result_of(Eigen::MatrixX3f radiance, const Eigen::VectorXf& confidence = {});
+
 // Unit vectors towards the main lights, strongest first; towards the brightest cell alone when there is no main light. Empty for
 // an even sky, which says nothing about direction.
 std::vector<Eigen::Vector3d> light_directions(const pipeline::LightResult& result);

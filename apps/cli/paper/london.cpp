@@ -1,15 +1,16 @@
 #include "paper/london.h"
 
 #include "faceprobe/core/angles.h"
-#include "faceprobe/core/error.h"
 #include "faceprobe/io/photo.h"
 #include "paper/light_direction.h"
 
 #include <array>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 namespace faceprobe::cli {
 
@@ -24,19 +25,32 @@ struct LondonAnswer {
 };
 using BothAnswers = std::optional<std::array<LondonAnswer, 2>>;  // neutral, smiling
 
-// Empty when there is no face or the light says nothing about direction.
-std::optional<LondonAnswer> london_answer(const pipeline::Estimator& estimator, const io::Photo& photo) {
-  try {
-    const pipeline::Estimate estimate = estimator.estimate(photo);
-    const pipeline::FaceEstimate& face = estimate.faces[estimate.largest];
-    const std::vector<Eigen::Vector3d> lights = light_directions(face);
-    const std::optional<Eigen::Vector3d> centroid = energy_centroid(face);
-    if (lights.empty() || !centroid) return std::nullopt;
-    return LondonAnswer{lights, *centroid, luminances(face.light)};
-  } catch (const Error& error) {
-    if (error.code() != ExitCode::kNoFace) throw;
-    return std::nullopt;
+// Empty when the light says nothing about direction.
+std::optional<LondonAnswer> london_answer(const pipeline::LightResult& result) {
+  const std::vector<Eigen::Vector3d> lights = light_directions(result);
+  const std::optional<Eigen::Vector3d> centroid = energy_centroid(result);
+  if (lights.empty() || !centroid) return std::nullopt;
+  return LondonAnswer{lights, *centroid, luminances(result.light)};
+}
+
+using LondonAnswers = std::vector<std::optional<LondonAnswer>>;
+
+// Of every setting, then of every rival on the first setting's estimate.
+LondonAnswers answers_to(const io::Photo& photo, const std::vector<pipeline::Estimator>& estimators,
+                         const std::vector<FaceLightMethod>& rivals) {
+  LondonAnswers own;
+  LondonAnswers theirs;
+  for (const pipeline::Estimator& estimator : estimators) {
+    const std::optional<pipeline::FaceEstimate> face = face_in(estimator, photo);
+    own.push_back(face ? london_answer(*face) : std::nullopt);
+    if (!theirs.empty()) continue;
+    for (const FaceLightMethod& rival : rivals) {
+      Eigen::MatrixX3f found = face ? rival.light({*face, photo.linear}) : Eigen::MatrixX3f();
+      theirs.push_back(found.size() > 0 ? london_answer(result_of(std::move(found))) : std::nullopt);
+    }
   }
+  own.insert(own.end(), std::make_move_iterator(theirs.begin()), std::make_move_iterator(theirs.end()));
+  return own;
 }
 
 double mean_nearest_deg(const std::vector<Eigen::Vector3d>& from, const std::vector<Eigen::Vector3d>& to) {
@@ -81,7 +95,8 @@ std::map<std::string, double> no_answer(std::size_t expression) {
   return metrics;
 }
 
-void add_rows(const std::string& name, const LondonSet& london, const std::vector<BothAnswers>& people,
+// `constant`: whether all answers are one, whose agreement says nothing.
+void add_rows(const std::string& name, bool constant, const LondonSet& london, const std::vector<BothAnswers>& people,
               eval::ScoreTable& scores) {
   const std::optional<Eigen::Vector3d> centre = centre_of(people);
   const std::vector<double> agreement = agreements(people);
@@ -104,7 +119,7 @@ void add_rows(const std::string& name, const LondonSet& london, const std::vecto
         if (e == 1) metrics["neutral_to_smiling_deg"] = angle_between_deg((*people[p])[0].centroid, answer.centroid);
         ++answered;
       }
-      if (name == kStraightAhead) metrics.erase("map_correlation");
+      if (constant) metrics.erase("map_correlation");
       std::map<std::string, std::string> groups = {{"expression", kExpressions[e]}};
       if (!person.ethnicity.empty()) groups["ethnicity"] = person.ethnicity;
       scores.add({name, person.id + " " + kExpressions[e], std::move(groups), std::move(metrics), person.id});
@@ -115,20 +130,17 @@ void add_rows(const std::string& name, const LondonSet& london, const std::vecto
 }  // namespace
 
 eval::ScoreTable measure_london(const LondonSet& london, const std::vector<DirectionSetting>& settings,
-                                const PhotoDone& done) {
+                                const PhotoDone& done, const std::vector<FaceLightMethod>& rivals) {
   const std::vector<pipeline::Estimator> estimators = estimators_of(settings);
-  std::vector<std::vector<BothAnswers>> answers(settings.size());
+  const std::size_t count = settings.empty() ? 0 : settings.size() + rivals.size();
+  std::vector<std::vector<BothAnswers>> answers(count);
   for (const LondonPerson& person : london.people) {
-    std::vector<std::optional<LondonAnswer>> neutral;
-    neutral.reserve(estimators.size());
-    const io::Photo first = io::load_photo(person.neutral);
-    for (const pipeline::Estimator& estimator : estimators) neutral.push_back(london_answer(estimator, first));
+    LondonAnswers neutral = answers_to(io::load_photo(person.neutral), estimators, rivals);
     if (done) done();
-    const io::Photo second = io::load_photo(person.smiling);
-    for (std::size_t k = 0; k < settings.size(); ++k) {
-      std::optional<LondonAnswer> smiling = london_answer(estimators[k], second);
+    LondonAnswers smiling = answers_to(io::load_photo(person.smiling), estimators, rivals);
+    for (std::size_t k = 0; k < count; ++k) {
       answers[k].emplace_back();
-      if (neutral[k] && smiling) answers[k].back() = {std::move(*neutral[k]), std::move(*smiling)};
+      if (neutral[k] && smiling[k]) answers[k].back() = {std::move(*neutral[k]), std::move(*smiling[k])};
     }
     if (done) done();
   }
@@ -136,9 +148,16 @@ eval::ScoreTable measure_london(const LondonSet& london, const std::vector<Direc
   scores.order_labels("expression", {kExpressions.begin(), kExpressions.end()});
   // What no look at the photo gives.
   const LondonAnswer ahead{{Eigen::Vector3d::UnitZ()}, Eigen::Vector3d::UnitZ(), {}};
-  add_rows(kStraightAhead, london,
+  add_rows(kStraightAhead, true, london,
            std::vector<BothAnswers>(london.people.size(), std::array<LondonAnswer, 2>{ahead, ahead}), scores);
-  for (std::size_t k = 0; k < settings.size(); ++k) add_rows(settings[k].name, london, answers[k], scores);
+  for (std::size_t k = 0; k < count; ++k) {
+    if (k < settings.size()) {
+      add_rows(settings[k].name, false, london, answers[k], scores);
+    } else {
+      const FaceLightMethod& rival = rivals[k - settings.size()];
+      add_rows(rival.name, rival.constant, london, answers[k], scores);
+    }
+  }
   return scores;
 }
 

@@ -5,6 +5,7 @@
 //   const eval::ScoreTable scores = measure_london(london, {direction_setting(lighting::Solver::kTransport, {}, {})});
 //   std::cout << scores.markdown_by_group("strongest_deg", "expression", 1);
 
+#include "face_light_methods.h"
 #include "faceprobe/eval/score_table.h"
 #include "paper/direction_setting.h"
 #include "paper/london_set.h"
@@ -20,10 +21,11 @@ namespace faceprobe::cli {
 //   lights                  number of estimated ones
 //   centroid_x, _y, _z      direction of the centroid of the light's energy, camera frame
 //   centroid_off_deg        it to the mean of the setting's centroids
-//   map_correlation         of the map with those of other people, mean: agreement_with_others(); not of the light straight ahead
+//   map_correlation         of the map with those of other people, mean: agreement_with_others(); not of a light that is the same for all
 //   neutral_to_smiling_deg  between the person's two centroids; of smiling photos alone
 // Groups: expression, and ethnicity where it is known. Intervals draw people.
+// Rivals are given the first setting's estimates.
 eval::ScoreTable measure_london(const LondonSet& london, const std::vector<DirectionSetting>& settings,
-                                const PhotoDone& done = {});
+                                const PhotoDone& done = {}, const std::vector<FaceLightMethod>& rivals = {});
 
 }  // namespace faceprobe::cli

@@ -17,6 +17,11 @@ struct SectionNote {
   std::string_view row;
   const char* text;
 };
+constexpr const char* kDirectionRivals =
+    "The rivals' rows are other ways to the light from what our estimate saw: its layers, its normals and, for the "
+    "network of LeGendre et al., its place of the face. Gardner's and Hold-Geoffroy's networks have no row: they see "
+    "the scene behind a head, and these photos show none. Ambient light has no direction, so straight ahead stands in "
+    "its place. The lamp at the brightest highlight has no answer where no highlight was found.";
 constexpr std::array kSectionNotes = {
     SectionNote{"highlights", "paper's network (MSCR)",
                 "Row \"paper's network (MSCR)\" is the paper's network, trained by us on our synthetic faces and not "
@@ -42,7 +47,8 @@ constexpr std::array kSectionNotes = {
                 {},
                 "The values of the pixels are taken for linear light. That is a choice: the database says that its "
                 "camera was linear, but the files carry no profile, and of any other such file sRGB is assumed, which "
-                "does much worse here (bench_direction prints both). The row \"paper's solver, net\" has the normals "
+                "does much worse here (`faceprobe eval direction` prints both). The row \"paper's solver, net\" has "
+                "the normals "
                 "of our network."},
     SectionNote{"direction_london",
                 {},
@@ -50,6 +56,8 @@ constexpr std::array kSectionNotes = {
                 "(models/README.md): they are not people that it has never seen, if in other photos. Where a group is "
                 "one person no interval is given. The rows \"paper's solver\" have the layers and normals of our "
                 "network."},
+    SectionNote{"direction_yale", "lombardi and nishino, lite", kDirectionRivals},
+    SectionNote{"direction_london", "lombardi and nishino, lite", kDirectionRivals},
     SectionNote{"ablations",
                 {},
                 "The rows \"paper's solver\" have the layers and normals of our network, as in the section of the "
@@ -128,6 +136,12 @@ std::string readable_origin(std::string text) {
   return text;
 }
 
+// Reports of versions before this one name a benchmark that is a stage of `eval` now.
+std::string command_now(const std::string& command) {
+  constexpr std::string_view kBefore = "bench_direction ";
+  return command.starts_with(kBefore) ? "faceprobe eval direction " + command.substr(kBefore.size()) : command;
+}
+
 // Of an earlier report that measured only the parts that this one measured again nothing is left: its line goes.
 std::string without_replaced(const std::string& text) {
   constexpr std::string_view kEarlier = "The other parts are from an earlier report: ";
@@ -155,6 +169,7 @@ void make_readable(eval::PaperReport& report) {
   report.terms.assign(kTerms.begin(), kTerms.end());
   for (eval::ReportSection& section : report.sections) {
     section.notes.clear();
+    section.command = command_now(section.command);
     for (const SectionNote& note : kSectionNotes) {
       if (note.section != section.id || !(note.row.empty() || has_row(section, note.row))) continue;
       section.notes += (section.notes.empty() ? "" : "\n\n") + std::string(note.text);

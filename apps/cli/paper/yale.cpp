@@ -13,6 +13,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <utility>
 
 namespace faceprobe::cli {
 
@@ -52,25 +53,31 @@ io::Photo as_linear_codes(io::Photo photo) {
 
 using FlashMetrics = std::map<std::string, double>;
 
-FlashMetrics flash_errors(const pipeline::Estimator& estimator, const io::Photo& photo, const Eigen::Vector3d& light) {
-  constexpr double kNoAnswer = std::numeric_limits<double>::quiet_NaN();
-  FlashMetrics metrics = {
-      {"main_light_deg", kNoAnswer}, {"centroid_deg", kNoAnswer}, {"lamp_deg", kNoAnswer}, {"face", 0}};
-  const auto set = [&](const char* metric, const std::optional<Eigen::Vector3d>& direction) {
-    if (direction) metrics[metric] = angle_between_deg(*direction, light);
-  };
-  try {
-    const pipeline::Estimate estimate = estimator.estimate(photo);
-    const pipeline::FaceEstimate& face = estimate.faces[estimate.largest];
-    metrics["face"] = 1;
-    const std::vector<Eigen::Vector3d> lights = light_directions(face);
-    if (!lights.empty()) set("main_light_deg", lights.front());
-    set("centroid_deg", energy_centroid(face));
-    set("lamp_deg", single_lamp(face.observations));
-  } catch (const Error& error) {
-    if (error.code() != ExitCode::kNoFace) throw;
-  }
+constexpr double kNoAnswer = std::numeric_limits<double>::quiet_NaN();
+
+double error_deg(const std::optional<Eigen::Vector3d>& direction, const Eigen::Vector3d& light) {
+  return direction ? angle_between_deg(*direction, light) : kNoAnswer;
+}
+
+FlashMetrics light_errors(const pipeline::LightResult& result, const Eigen::Vector3d& light) {
+  const std::vector<Eigen::Vector3d> lights = light_directions(result);
+  return {{"main_light_deg", lights.empty() ? kNoAnswer : angle_between_deg(lights.front(), light)},
+          {"centroid_deg", error_deg(energy_centroid(result), light)}};
+}
+
+FlashMetrics flash_errors(const std::optional<pipeline::FaceEstimate>& face, const Eigen::Vector3d& light) {
+  if (!face) return {{"main_light_deg", kNoAnswer}, {"centroid_deg", kNoAnswer}, {"lamp_deg", kNoAnswer}, {"face", 0}};
+  FlashMetrics metrics = light_errors(*face, light);
+  metrics["lamp_deg"] = error_deg(single_lamp(face->observations), light);
+  metrics["face"] = 1;
   return metrics;
+}
+
+FlashMetrics rival_errors(const FaceLightMethod& rival, const std::optional<pipeline::FaceEstimate>& face,
+                          const io::Photo& photo, const Eigen::Vector3d& light) {
+  Eigen::MatrixX3f found = face ? rival.light({*face, photo.linear}) : Eigen::MatrixX3f();
+  if (found.size() == 0) return {{"main_light_deg", kNoAnswer}, {"centroid_deg", kNoAnswer}};
+  return light_errors(result_of(std::move(found)), light);
 }
 
 }  // namespace
@@ -105,7 +112,7 @@ std::vector<YalePicture> yale_pictures(const std::filesystem::path& folder, int 
 }
 
 eval::ScoreTable measure_yale(const std::vector<YalePicture>& pictures, const std::vector<DirectionSetting>& settings,
-                              const PhotoDone& done) {
+                              const PhotoDone& done, const std::vector<FaceLightMethod>& rivals) {
   std::vector<DirectionSetting> aligned = settings;
   for (DirectionSetting& setting : aligned) setting.options.landmarks_px = fixed_landmarks();
   const std::vector<pipeline::Estimator> estimators = estimators_of(aligned);
@@ -119,8 +126,13 @@ eval::ScoreTable measure_yale(const std::vector<YalePicture>& pictures, const st
     add(kStraightAhead, {{"main_light_deg", picture.axis_deg}, {"centroid_deg", picture.axis_deg}});
     const io::Photo as_srgb = io::load_photo(picture.file);
     const io::Photo as_light = as_linear_codes(as_srgb);
-    for (std::size_t k = 0; k < aligned.size(); ++k)
-      add(aligned[k].name, flash_errors(estimators[k], aligned[k].linear_codes ? as_light : as_srgb, picture.light));
+    for (std::size_t k = 0; k < aligned.size(); ++k) {
+      const io::Photo& photo = aligned[k].linear_codes ? as_light : as_srgb;
+      const std::optional<pipeline::FaceEstimate> face = face_in(estimators[k], photo);
+      add(aligned[k].name, flash_errors(face, picture.light));
+      if (k > 0) continue;
+      for (const FaceLightMethod& rival : rivals) add(rival.name, rival_errors(rival, face, photo, picture.light));
+    }
     if (done) done();
   }
   return scores;

@@ -6,6 +6,7 @@
 //   const eval::ScoreTable scores = measure_yale(pictures, {direction_setting(lighting::Solver::kTransport, {}, {})});
 //   std::cout << scores.markdown_by_group("main_light_deg", "flash", 1);
 
+#include "face_light_methods.h"
 #include "faceprobe/eval/score_table.h"
 #include "paper/direction_setting.h"
 
@@ -34,7 +35,8 @@ std::vector<YalePicture> yale_pictures(const std::filesystem::path& folder, int 
 // A row a picture and setting, and one of a light straight ahead, which is what no look at the photo gives. Metrics, degrees from the flash:
 // main_light_deg, centroid_deg (of the light's energy), lamp_deg (the single lamp that fits the shading best); NaN where there is no such answer.
 // face: 1, or 0 where none was found. Group: flash. Rows say whom they show, so intervals draw subjects. The settings' landmarks are replaced.
+// Rivals are given the first setting's estimates, and have neither lamp_deg nor face.
 eval::ScoreTable measure_yale(const std::vector<YalePicture>& pictures, const std::vector<DirectionSetting>& settings,
-                              const PhotoDone& done = {});
+                              const PhotoDone& done = {}, const std::vector<FaceLightMethod>& rivals = {});
 
 }  // namespace faceprobe::cli

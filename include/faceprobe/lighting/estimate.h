@@ -34,7 +34,7 @@ struct SolveOptions {
   int nside = 16;       // of the sphere grid the light is solved on: 3072 cells
   int iterations = 50;  // Richardson-Lucy; 20 - 50 is the knee for noisy data
   // Transport solver only. Influence of all highlight rows and of all shading rows on the estimate; 0 leaves a kind out. The
-  // defaults suit layers from the classical separators, whose highlights are rough (bench_direction); with exact layers the
+  // defaults suit layers from the classical separators, whose highlights are rough (`eval direction`); with exact layers the
   // highlights deserve more than the shading (bench_best_case).
   float highlight_weight = 0.3F;
   float shading_weight = 1.0F;  // 0 or more
