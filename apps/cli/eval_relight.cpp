@@ -9,7 +9,9 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
 #include <string>
+#include <utility>
 
 namespace faceprobe::cli {
 
@@ -28,10 +30,28 @@ void print_groups(const eval::ScoreTable& table, const std::string& title, const
 void print_suns(const eval::ScoreTable& table) {
   const std::string all = eval::sun_markdown(table);
   if (all.empty()) return;
+  print(table, "Sun (centroid of the brightest 1 %), degrees", "sun_centroid", 1);
+  print_groups(table, "The same by scene", "sun_centroid", "scene", 1);
+  print(table, "The sun's azimuth alone, degrees", "sun_azimuth", 1);
+  print(table, "The sun's elevation alone, degrees", "sun_elevation", 1);
   fmt::print(
       "\n### Sun: share of photos within N degrees, and the 75 % mark\n\nOf photos that one lamp dominates.\n\n{}", all);
   if (const std::string outdoor = eval::sun_markdown(table, "scene", "outdoor"); !outdoor.empty())
     fmt::print("\n### The same, outdoor scenes alone\n\n{}", outdoor);
+}
+
+// Three spheres by three measures, and the maps by two.
+void print_maps(const eval::ScoreTable& table) {
+  constexpr std::pair<const char*, const char*> kSpheres[] = {
+      {"Diffuse", "diffuse"}, {"Rough metal", "matte"}, {"Mirror", "mirror"}};
+  for (const auto& [name, metric] : kSpheres) {
+    const std::string sphere = std::string(name) + " sphere, ";
+    print(table, sphere + "si-RMSE", std::string("si_") + metric, 3);
+    print(table, sphere + "angle between its colours, degrees", std::string("angle_") + metric, 2);
+    print(table, sphere + "NRMSE", std::string("nrmse_") + metric, 3);
+  }
+  print(table, "Map, NRMSE over the estimate's range", "nrmse_map", 3);
+  print(table, "Map, NRMSE over the truth's range", "nrmse_map_truth", 3);
 }
 
 }  // namespace
@@ -64,10 +84,7 @@ int eval_relight(const EvalOptions& options) {
   print_groups(table, "Diffuse object by skin tone", "diffuse", "tone", 1);
   print_groups(table, "Diffuse object by clipped share of the skin", "diffuse", "clipped", 1);
   print_groups(table, "Diffuse object by the skin's share of the crop", "diffuse", "size", 1);
-  print(table, "Diffuse sphere, error after the best scale", "si_diffuse", 3);
-  print(table, "Rough metal sphere, the same", "si_matte", 3);
-  print(table, "Mirror sphere, the same", "si_mirror", 3);
-  print(table, "Map, error over the estimate's range", "nrmse_map", 3);
+  print_maps(table);
   if (options.output.empty()) return 0;
   const std::filesystem::path folder = options.output;
   io::create_folder(folder);
