@@ -4,9 +4,10 @@
 #
 #   bench/measurements.sh --data DIR [BUILD_DIR]
 #   bench/measurements.sh --data DIR --only robustness [BUILD_DIR]   one of: best_case separation highlight_makehuman highlight_photos
-#                                                                    highlight_people highlight_net geometry shading region_photos
-#                                                                    surface_photos robustness speed solve page readme insert
-#                                                                    insert_cycles synth_cycles synth_speed synth_rate
+#                                                                    highlight_people highlight_net geometry shading one_lamp
+#                                                                    direction region_photos surface_photos robustness speed
+#                                                                    solve page readme insert insert_cycles synth_cycles
+#                                                                    synth_speed synth_rate
 #   bench/measurements.sh --data DIR --faces FACES ...      for highlight_people, geometry and shading: the dev faces of docs/training.md;
 #                                                           they are left as they are without them
 #   bench/measurements.sh --data DIR --training FACES ...   for highlight_people: the training faces, likewise
@@ -19,7 +20,7 @@ set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 sections=(best_case separation highlight_makehuman highlight_photos highlight_people highlight_net geometry shading
-          region_photos surface_photos robustness speed solve page readme insert insert_cycles synth_cycles synth_speed synth_rate)
+          one_lamp direction region_photos surface_photos robustness speed solve page readme insert insert_cycles synth_cycles synth_speed synth_rate)
 data=
 faces=
 training=
@@ -57,6 +58,8 @@ title_of() {
     highlight_net) echo "What the network costs" ;;
     geometry) echo "Normals and regions of synthetic faces" ;;
     shading) echo "Albedo and shading of synthetic faces" ;;
+    one_lamp) echo "What better normals are worth: synthetic faces under one lamp" ;;
+    direction) echo "What better normals are worth: photos under known lights" ;;
     region_photos) echo "Regions of photos" ;;
     surface_photos) echo "Albedo of photos" ;;
     robustness) echo "Many kinds of photo" ;;
@@ -78,6 +81,8 @@ command_of() {
     geometry)
       echo "BUILD/bin/faceprobe eval geometry --data FACES --weights net=models/face.safetensors --head DIR/faces/ict_facekit --samples 200" ;;
     shading) echo "BUILD/bin/faceprobe eval shading --data FACES --weights net=models/face.safetensors --samples 200" ;;
+    direction)
+      echo "BUILD/bin/faceprobe eval direction --data DIR --every 3 --normals mesh,3dmm,net --head DIR/faces/ict_facekit" ;;
     highlight_makehuman) echo "bench/makehuman.sh --data DIR" ;;
     highlight_people) echo "bench/people.sh --data DIR --faces FACES --training TRAINING" ;;
     speed) echo "bench/speed.sh" ;;
@@ -98,6 +103,9 @@ run_section() {
       "$build/bin/faceprobe" eval geometry --data "$faces" --weights net="$root/models/face.safetensors" --head "$data/faces/ict_facekit" \
         --samples 200 ;;
     shading) "$build/bin/faceprobe" eval shading --data "$faces" --weights net="$root/models/face.safetensors" --samples 200 ;;
+    direction)  # its headings go below the section's
+      "$build/bin/faceprobe" eval direction --data "$data" --every 3 --normals mesh,3dmm,net --head "$data/faces/ict_facekit" |
+        sed 's/^##/###/' ;;
     highlight_makehuman) "$root/bench/makehuman.sh" --data "$data" "$build" ;;
     highlight_people) "$root/bench/people.sh" --data "$data" --faces "$faces" --training "$training" "$build" ;;
     speed) "$root/bench/speed.sh" ;;
