@@ -32,16 +32,11 @@ Eigen::Vector3f with_luminance(const Eigen::Array3d& colour, float luminance) {
   return (colour * (luminance / faceprobe::luminance(colour.data()))).matrix().cast<float>();
 }
 
-// Root mean square angle in degrees between a colour and colours whose log(r/g) and log(b/g) are off by independent normal errors of that variance:
-// to first order, of d colour what is across the colour.
-double colour_uncertainty_deg(const Eigen::Array3d& colour, double log_variance) {
-  const double all = colour.square().sum();
-  double across = 0;
-  for (const int c : {0, 2}) {
-    const double share = colour[c] * colour[c] / all;
-    across += share * (1 - share);
-  }
-  return degrees(std::sqrt(log_variance * across));
+// Radians of angle a unit of error in log(r/g) and log(b/g): of d colour what is across the colour.
+double turn_per_log(const Eigen::Vector3f& colour) {
+  const Eigen::Array3d squares = colour.cast<double>().array().square();
+  const Eigen::Array3d share = squares / squares.sum();
+  return std::sqrt(share[0] * (1 - share[0]) + share[2] * (1 - share[2]));
 }
 
 // One pass of a running mean along rows or columns, borders clamped; three make a near-Gaussian.
@@ -93,6 +88,16 @@ RegionSamples samples_of(const Image& diffuse, const ByteImage& skin_region, con
 
 }  // namespace
 
+SkinColourPrior skin_colour_prior() { return {kSkinLogRatio, kSkinSigma}; }
+
+double colour_uncertainty_deg(const Eigen::Vector3f& colour, double log_deviation) {
+  return degrees(log_deviation * turn_per_log(colour));
+}
+
+double colour_log_deviation(const Eigen::Vector3f& colour, double uncertainty_deg) {
+  return radians(uncertainty_deg) / turn_per_log(colour);
+}
+
 AlbedoModel fit_albedo(const Image& diffuse, const ByteImage& skin_region, const ByteImage& clipped,
                        const Image& normal_cam, bool grey) {
   const bool has_normals = !normal_cam.empty();
@@ -119,7 +124,7 @@ AlbedoModel fit_albedo(const Image& diffuse, const ByteImage& skin_region, const
                                          : Eigen::Array3d(std::exp(kSkinLogRatio[0]), 1.0, std::exp(kSkinLogRatio[1]));
   model.light_colour.setOnes();
   constexpr double kLightVariance = kWhiteBalanceSigma * kWhiteBalanceSigma;
-  if (!grey) model.light_colour_uncertainty_deg = colour_uncertainty_deg(Eigen::Array3d::Ones(), kLightVariance);
+  if (!grey) model.light_colour_uncertainty_deg = colour_uncertainty_deg(model.light_colour, kWhiteBalanceSigma);
   RelativeLuminance relative = usual_relative_luminance();
   for (std::size_t r = 0; r < relative.size(); ++r)
     model.region_albedo[r] = with_luminance(prior_skin, kSkinLuminance * relative[r]);
@@ -133,7 +138,9 @@ AlbedoModel fit_albedo(const Image& diffuse, const ByteImage& skin_region, const
            : ((found - kSkinLogRatio) * (kLightVariance / (kLightVariance + kSkinSigma * kSkinSigma))).eval();
   const Eigen::Array3d light(std::exp(log_light[0]), 1.0, std::exp(log_light[1]));
   model.light_colour = light.matrix().cast<float>();
-  if (!grey) model.light_colour_uncertainty_deg = colour_uncertainty_deg(light, kLightVariance * kSkinShare);
+  if (!grey)
+    model.light_colour_uncertainty_deg =
+        colour_uncertainty_deg(model.light_colour, std::sqrt(kLightVariance * kSkinShare));
   if (has_normals) relative = fit_relative_luminance(samples_of(diffuse, skin_region, clipped, normal_cam));
   for (std::size_t r = 0; r < regions.size(); ++r) {
     // Regions of few pixels lean on the whole face.

@@ -24,6 +24,7 @@ std::string SolveOptions::validate() const {
     return "The weights of highlights and shading must not be negative, nor both zero.";
   }
   if (!(prior_weight >= 0 && prior_weight < 1e6F)) return "prior_weight must be from 0 to a million.";
+  if (!(highlight_gain > 0 && highlight_gain < 1e6F)) return "highlight_gain must lie between 0 and a million.";
   if (!(max_leak >= 0 && max_leak <= 1)) return "max_leak must lie in [0, 1].";
   if (colour_iterations < 0 || colour_iterations > 1000) return "colour_iterations must be from 0 to 1000.";
   return {};

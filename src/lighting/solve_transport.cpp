@@ -65,10 +65,15 @@ void fit_highlights(const Observations& o, const Transport& transport, const Sol
     expected_ratio.push_back(expected[i] / shading[i]);
   }
   const float expected_sum = weighted_sum(weight, expected);
-  if (!(weighted_sum(weight, found) > 0)) return;  // nothing mirrored, nothing to fit
-  if (found_ratio.size() < 10 || !(expected_sum > 0)) return;
+  if (!(weighted_sum(weight, found) > 0)) return;        // nothing mirrored, nothing to fit
+  if (found_ratio.size() < 10 || !(expected_sum > 0)) {  // too few to fit anything
+    if (options.fit_highlight_gain) return;
+    light.highlight_gain = options.highlight_gain;
+    highlight /= options.highlight_gain;
+    return;
+  }
   const auto limited = [](float gain) { return std::clamp(gain, 0.05F, 20.0F); };
-  float gain = options.fit_highlight_gain ? limited(weighted_sum(weight, found) / expected_sum) : 1.0F;
+  float gain = options.fit_highlight_gain ? limited(weighted_sum(weight, found) / expected_sum) : options.highlight_gain;
   // Where the face mirrors least, what is left above the expected mirror light is diffuse light.
   constexpr double kLeast = 0.1;
   float leak = 0;

@@ -4,23 +4,11 @@
 #include "faceprobe/core/microfacet.h"
 #include "faceprobe/core/parallel.h"
 #include "lighting/horizon_profile.h"
+#include "lighting/skin_of.h"
 
 #include <stdexcept>
 
 namespace faceprobe::lighting {
-
-namespace {
-
-Microfacet skin_of(const Observations& observations, int patch, Fresnel fresnel) {
-  Microfacet skin{.roughness = observations.roughness[patch], .specular_albedo = observations.specular_albedo[patch]};
-  if (fresnel == Fresnel::kConstant) {
-    skin.specular_albedo *= skin.f0;
-    skin.f0 = 1;  // Schlick's term is 1 at every angle then
-  }
-  return skin;
-}
-
-}  // namespace
 
 Transport build_transport(const Observations& observations, const SphereGrid& grid, int threads, Fresnel fresnel) {
   if (const std::string fault = observations.validate(); !fault.empty()) throw std::invalid_argument(fault);

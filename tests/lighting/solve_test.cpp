@@ -219,6 +219,24 @@ TEST(Solve, TheResidualIsOfTheRowsThatWereUsed) {
   EXPECT_FALSE(solve(none, {.nside = 8}).shading_residual);
 }
 
+TEST(Solve, AGainThatIsGivenIsNotFitted) {
+  const SphereGrid grid(8);
+  Observations face = ellipsoid_face(24);
+  light_up(face, grid, lamp(grid, {0.4, 0.5, 0.8}, 12, 0.2F));
+  const SolveOptions as_they_are{.nside = 8, .fit_highlight_gain = false, .max_leak = 0};
+  const Light wanted = solve(face, as_they_are);
+  EXPECT_EQ(wanted.highlight_gain, 1);
+  face.highlight *= 2;
+  SolveOptions given = as_they_are;
+  given.highlight_gain = 2;
+  const Light found = solve(face, given);
+  EXPECT_EQ(found.highlight_gain, 2);
+  EXPECT_TRUE(found.radiance.isApprox(wanted.radiance, 1e-5F));
+  EXPECT_FALSE(solve(face, as_they_are).radiance.isApprox(wanted.radiance, 1e-2F));
+  given.highlight_gain = 0;
+  EXPECT_THROW(solve(face, given), std::invalid_argument);
+}
+
 TEST(Observations, AFaceWithoutHighlightsIsKnown) {
   const SphereGrid grid(8);
   Observations face = ellipsoid_face(24);

@@ -28,6 +28,18 @@ struct AlbedoModel {
 
 inline constexpr float kSkinLuminance = 0.35F;  // assumed mean diffuse albedo; a photo does not tell its exposure
 
+// What skins are like before the photo is asked: mean of log(r/g) and log(b/g) of their albedo, and the standard deviation of both.
+struct SkinColourPrior {
+  Eigen::Array2d log_ratio;
+  double deviation;
+};
+SkinColourPrior skin_colour_prior();
+
+// Root mean square angle in degrees between a linear colour and colours whose log(r/g) and log(b/g) are off by independent normal errors of that
+// standard deviation, to first order; and the deviation of such an angle.
+double colour_uncertainty_deg(const Eigen::Vector3f& colour, double log_deviation);
+double colour_log_deviation(const Eigen::Vector3f& colour, double uncertainty_deg);
+
 // `diffuse`: H x W x 3 linear. `skin_region`: H x W x 1, Region where skin, 0 elsewhere. `clipped`: H x W x 1, non-zero
 // pixels are left out. `normal_cam`: H x W x 3, unit, camera frame, or an empty picture where normals are not known. A face without any usable
 // skin pixel gets the prior's mean. `grey`: the photo has no colour, so skin and light

@@ -40,6 +40,7 @@ struct SolveOptions {
   float shading_weight = 1.0F;  // 0 or more
   // Fit one gain between highlights and shading (specular albedo and skin albedo are known only up to a factor each).
   bool fit_highlight_gain = true;
+  float highlight_gain = 1;  // where it is not fitted: what the highlights are divided by
   // Diffuse light that a separator left in the highlights, per unit of shading; fitted, never more than this. 0 = none.
   float max_leak = 0.2F;
   // Pull of weakly observed cells towards the smooth light that the shading alone gives, see RichardsonLucyOptions: they stay near
