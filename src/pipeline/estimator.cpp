@@ -8,6 +8,7 @@
 #include "pipeline/face_warnings.h"
 #include "pipeline/light_result.h"
 #include "pipeline/read_layers.h"
+#include "pipeline/same_person.h"
 #include "pipeline/stopwatch.h"
 #include "pipeline/take_colour_off.h"
 
@@ -55,15 +56,20 @@ FaceEstimate Estimator::Impl::analyse(const io::Photo& photo, const face::Camera
   lighting::Light light = light_of(out.observations, out.enough_shown);
   if (prior && out.enough_shown && lighting::shading_level(out.observations) > 0) out.sources.prior = PriorSource::kNet;
   watch.lap("light");
-  static_cast<LightResult&>(out) = light_result(std::move(light), options);
+  static_cast<LightResult&>(out) = solved_light(std::move(light), out.observations, options);
   watch.lap("maps and main lights");
   return out;
 }
 
 lighting::Light Estimator::Impl::light_of(const lighting::Observations& observations, bool ask_prior) const {
+  return light_of(observations, ask_prior, options.solve);
+}
+
+lighting::Light Estimator::Impl::light_of(const lighting::Observations& observations, bool ask_prior,
+                                          const lighting::SolveOptions& solve) const {
   const Eigen::MatrixX3f expected =
-      prior && ask_prior ? expected_light(*prior, observations, options.solve.nside) : Eigen::MatrixX3f();
-  return lighting::solve(observations, options.solve, expected);
+      prior && ask_prior ? expected_light(*prior, observations, solve.nside) : Eigen::MatrixX3f();
+  return lighting::solve(observations, solve, expected);
 }
 
 Estimator::Estimator(EstimateOptions options) : impl_(std::make_unique<Impl>(std::move(options))) {}
@@ -84,7 +90,37 @@ lighting::Light Estimator::light_of(const lighting::Observations& observations, 
 LightResult Estimator::joint(const std::vector<FaceEvidence>& faces) const {
   if (faces.empty()) throw std::invalid_argument("A joint light needs a face.");
   const bool all_shown = std::ranges::all_of(faces, [](const FaceEvidence& face) { return face.enough_shown; });
-  return light_result(impl_->light_of(joint_observations(faces), all_shown), impl_->options);
+  const lighting::Observations all = joint_observations(faces);
+  return solved_light(impl_->light_of(all, all_shown), all, impl_->options);
+}
+
+void Estimator::same_person(std::vector<Estimate>& photos) const {
+  std::vector<StageTime> times;
+  Stopwatch watch(times);
+  std::vector<FaceEstimate*> faces;
+  for (Estimate& photo : photos) {
+    if (photo.faces.empty()) continue;
+    faces.push_back(&photo.faces[photo.largest]);
+  }
+  share_person(faces, impl_->options,
+               [this](const lighting::Observations& observations, bool ask_prior, const lighting::SolveOptions& solve) {
+                 return impl_->light_of(observations, ask_prior, solve);
+               });
+  for (Estimate& photo : photos) {
+    if (photo.faces.size() < 2 || !photo.faces[photo.largest].same_person) continue;
+    photo.warnings.push_back("The photo has " + std::to_string(photo.faces.size()) +
+                             " faces; the largest is taken for the person of the other photos.");
+    photo.joint = joint_of(photo);
+  }
+  watch.lap("same person");
+  for (Estimate& photo : photos)
+    photo.timings.push_back({times.front().stage, times.front().seconds / static_cast<double>(photos.size())});
+}
+
+LightResult Estimator::joint_of(const Estimate& photo) const {
+  std::vector<FaceEvidence> evidence;
+  for (const FaceEstimate& face : photo.faces) evidence.push_back(evidence_of(face));
+  return joint(evidence);
 }
 
 Estimate Estimator::estimate(const io::Photo& photo, const StageDone& stage_done) const {
@@ -133,9 +169,7 @@ Estimate Estimator::estimate(const io::Photo& photo, const StageDone& stage_done
             : "The photo is grey: the classical separators need colour, so the light comes from shading alone.");
   }
   if (out.faces.size() > 1) {
-    std::vector<FaceEvidence> evidence;
-    for (const FaceEstimate& face : out.faces) evidence.push_back(evidence_of(face));
-    out.joint = joint(evidence);
+    out.joint = joint_of(out);
     watch.lap("joint light");
   }
   return out;

@@ -14,6 +14,8 @@ struct Estimator::Impl {
   explicit Impl(EstimateOptions wanted);
   std::vector<face::Face> faces_of(const io::Photo& photo, const face::Camera& camera) const;
   lighting::Light light_of(const lighting::Observations& observations, bool ask_prior) const;
+  lighting::Light light_of(const lighting::Observations& observations, bool ask_prior,
+                           const lighting::SolveOptions& solve) const;
   FaceEstimate analyse(const io::Photo& photo, const face::Camera& camera, face::Face found, Stopwatch& watch) const;
 
   EstimateOptions options;

@@ -45,6 +45,14 @@ LightResult light_result(lighting::Light light, const EstimateOptions& options) 
   return result;
 }
 
+LightResult solved_light(lighting::Light light, const lighting::Observations& observations,
+                         const EstimateOptions& options) {
+  LightResult result = light_result(std::move(light), options);
+  if (options.solve.solver == lighting::Solver::kTransport)
+    lighting::rate_main_lights(observations, result.light, options.solve, result.lights);
+  return result;
+}
+
 FaceEvidence evidence_of(const FaceEstimate& face) {
   return {face.observations, energy(face.light), face.enough_shown};
 }

@@ -39,7 +39,9 @@ Json lights_json(const std::vector<lighting::MainLight>& lights) {
                    {"irradiance", light.irradiance},
                    {"peak_radiance", light.peak_radiance},
                    {"solid_angle_sr", light.solid_angle_sr},
-                   {"share_of_energy", light.share}});
+                   {"share_of_energy", light.share},
+                   {"direction_uncertainty_deg", number_or_null(light.direction_uncertainty_deg)},
+                   {"irradiance_uncertainty", number_or_null(light.irradiance_uncertainty)}});
   }
   return out;
 }
@@ -88,6 +90,14 @@ Json sources_json(const FaceSources& sources) {
           {"prior", prior_name(sources.prior)}};
 }
 
+Json same_person_json(const std::optional<SamePerson>& same) {
+  if (!same) return {};
+  return {{"photos", same->photos},
+          {"shading_gain_rgb", array_of(same->shading_gain)},
+          {"albedo_rgb", array_of(same->albedo)},
+          {"trust", same->trust}};
+}
+
 Json face_json(const FaceEstimate& face) {
   // Photo coordinates keep y down, as pixels do; the pose is in the camera frame, y up.
   const Eigen::Matrix3d rotation = face.face.camera_from_face.rotation();
@@ -110,6 +120,7 @@ Json face_json(const FaceEstimate& face) {
       {"light_colour_rgb", array_of(face.light_colour)},
       {"light_colour_uncertainty_deg", number_or_null(face.light_colour_uncertainty_deg)},
       {"skin_albedo_mean_rgb", albedo ? array_of(*albedo) : Json()},
+      {"same_person", same_person_json(face.same_person)},
       {"light", light_json(face)}};
 }
 

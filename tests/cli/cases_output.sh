@@ -38,6 +38,60 @@ case_several_photos() {
   expect_refused 2 "several photos" estimate first.jpg --same-light -o alone
 }
 
+# One skin in several photos, each of which keeps its own light.
+case_same_person() {
+  cp "$photo" first.jpg
+  cp "$photo" second.jpg
+  echo "not a photo" >broken.jpg
+  expect_exit 0 relight first.jpg --exposure -0.5 -o dim.png
+  expect_exit 0 estimate first.jpg second.jpg -o apart --deterministic "${quick[@]}"
+  expect_exit 0 estimate first.jpg second.jpg --same-person -o same --deterministic "${quick[@]}"
+  mapfile -t wanted < <(quick_face_files first; quick_face_files second)
+  expect_files same "${wanted[@]}"
+  expect_json 2 same/first/report.json faces 0 same_person photos
+  expect_json 2 same/second/report.json faces 0 same_person photos
+  # Photos that agree have nothing to correct.
+  cmp apart/first/environment.exr same/first/environment.exr || fail "the same photo twice has another light"
+  cmp same/first/environment.exr same/second/environment.exr || fail "the same photo twice has two lights"
+  # The skin of photos that differ is one all the same; a bad photo does not cost the others theirs.
+  expect_exit 8 estimate first.jpg broken.jpg dim.png --same-person -o some --json "${quick[@]}"
+  expect_stderr "2 of 3 photos share one person's skin"
+  expect_stderr "broken.jpg"
+  [ "$(grep -c '^{$' "$work/stdout")" = 2 ] || fail "two photos are two reports"
+  expect_json 2 some/dim/report.json faces 0 same_person photos
+  expect_json "$(json some/first/report.json faces 0 same_person albedo_rgb 1)" some/dim/report.json faces 0 same_person albedo_rgb 1
+  expect_json "$(json some/first/report.json faces 0 light highlight_gain)" some/dim/report.json faces 0 light highlight_gain
+  # With one photo left there is nothing to share.
+  expect_exit 8 estimate first.jpg broken.jpg --same-person -o one "${quick[@]}"
+  expect_stderr "fewer than two photos"
+  expect_refused 2 "--same-person is for several photos" estimate first.jpg --same-person -o alone
+  expect_refused 2 "leave one out" estimate first.jpg second.jpg --same-person --same-light -o both
+  expect_refused 2 "2 photos" estimate first.jpg second.jpg --same-person -o light.exr
+}
+
+# Every kind of report against docs/schema/report.schema.json, and broken ones; skipped without python3-jsonschema.
+case_report_schema() {
+  local python=${PYTHON:-python3} check=("$here/../docs/check_report.py" "$here/../../docs/schema/report.schema.json")
+  "$python" -c "from jsonschema import Draft202012Validator" 2>/dev/null || { echo "there is no python3-jsonschema"; exit 77; }
+  cp "$photo" first.jpg
+  expect_exit 0 relight first.jpg --exposure -0.5 -o dim.png
+  expect_exit 0 estimate first.jpg dim.png --same-light -o net --json "${quick[@]}"
+  cp "$work/stdout" several.json
+  expect_exit 0 estimate first.jpg dim.png --same-person -o person "${quick[@]}"
+  expect_exit 0 estimate first.jpg -o paper --solver paper --separator tan "${quick[@]}"
+  expect_exit 0 estimate first.jpg -o regions --shading regions --geometry mesh --prior smooth "${quick[@]}"
+  "$python" "${check[@]}" several.json net/joint/report.json {person/first,person/dim,paper,regions}/report.json ||
+    fail "the schema and the reports differ"
+  # What a careless writer would leave; the place is named.
+  local kind
+  for kind in 's|faceprobe-report/1|faceprobe-report/2| schema' 's|"yaw_deg": [-0-9.e]*|"yaw_deg": "left"| yaw_deg' '/"patches":/d patches'; do
+    sed "${kind% *}" regions/report.json >broken.json
+    ! cmp -s broken.json regions/report.json || fail "nothing was broken by ${kind% *}"
+    ! "$python" "${check[@]}" broken.json >problems || fail "a broken report passes: ${kind% *}"
+    grep -qF "${kind##* }" problems || fail "the problem is not named: ${kind##* }"
+  done
+}
+
 case_several_photos_of_one_name() {
   mkdir one two
   cp "$photo" one/a.jpg

@@ -95,10 +95,14 @@ TEST(Report, HoldsTheDocumentedFields) {
   ASSERT_EQ(light.at("main_lights").size(), portrait_estimate().faces[0].lights.size());
   const json& strongest = light.at("main_lights").at(0);
   EXPECT_NEAR(strongest.at("direction")[0].get<double>(), portrait_estimate().faces[0].lights[0].direction.x(), 1e-12);
-  for (const char* number :
-       {"azimuth_deg", "elevation_deg", "irradiance", "peak_radiance", "solid_angle_sr", "share_of_energy"}) {
+  for (const char* number : {"azimuth_deg", "elevation_deg", "irradiance", "peak_radiance", "solid_angle_sr",
+                             "share_of_energy", "direction_uncertainty_deg", "irradiance_uncertainty"}) {
     EXPECT_TRUE(strongest.at(number).is_number()) << number;
   }
+  // About what is measured of portraits (docs/results.md); the bounds are wide.
+  EXPECT_GT(strongest.at("direction_uncertainty_deg").get<double>(), 2);
+  EXPECT_LT(strongest.at("direction_uncertainty_deg").get<double>(), 40);
+  EXPECT_TRUE(face.at("same_person").is_null());
   EXPECT_GT(report.at("timings").at("total_seconds").get<double>(), 0);
 }
 
@@ -106,6 +110,7 @@ TEST(Report, HoldsTheDocumentedFields) {
 TEST(Report, EveryFieldStandsInTheDocumentation) {
   Estimate estimate = portrait_estimate();
   estimate.joint = estimate.faces[0];  // as two faces have it
+  estimate.faces[0].same_person = SamePerson{};
   const json report = json::parse(report_json(estimate, portrait(), EstimateOptions(), "portrait.jpg"));
   std::set<Field> written;
   add_fields(report, "report.json", written);

@@ -139,6 +139,25 @@ class Estimate(InFolder):
         with self.assertRaisesRegex(fp.UsageError, "no estimate"):
             estimator.joint([])
 
+    def test_one_skin_for_the_photos_of_a_person(self):
+        estimator = fp.Estimator(deterministic=True, size=64)
+        bright = portrait_light()
+        warm = np.ascontiguousarray(bright * np.array([1.1, 1, 0.85], dtype=np.float32))
+        apart = [estimator.estimate(bright), estimator.estimate(warm)]
+        shared = estimator.same_person(apart)
+        self.assertEqual(len(shared), 2)
+        skins = [estimate.faces[0].skin_albedo_mean for estimate in shared]
+        # One skin; regions that are blurred across their borders leave a little.
+        self.assertLess(np.abs(np.log(skins[0] / skins[1])).max(), 0.03)
+        for estimate, old in zip(shared, apart):
+            self.assertIsNone(old.faces[0].shading_gain)
+            self.assertEqual(estimate.faces[0].shading_gain.shape, (3,))
+            self.assertEqual(json.loads(estimate.to_json())["faces"][0]["same_person"]["photos"], 2)
+            self.assertGreater(estimate.faces[0].lights[0].direction_uncertainty_deg, 0)
+            self.assertGreater(estimate.faces[0].lights[0].irradiance_uncertainty, 0)
+        with self.assertRaisesRegex(fp.UsageError, "two at least"):
+            estimator.same_person(apart[:1])
+
     def test_landmarks_stand_in_for_detection(self):
         points = portrait().faces[0].landmarks[[468 // 2, 0, 1, 2, 3], :2]  # any five that are no face's
         with self.assertRaises(TypeError):

@@ -64,6 +64,26 @@ std::shared_ptr<pipeline::LightResult> joint_with(const TurnTaker& estimator,
   return std::make_shared<pipeline::LightResult>(estimator.joint(faces));
 }
 
+std::vector<EstimatedPtr> same_person_with(const TurnTaker& estimator, const std::vector<EstimatedPtr>& estimates) {
+  const py::gil_scoped_release release;
+  if (estimates.size() < 2) {
+    throw Error(ExitCode::kUsage,
+                "Photos of one person are two at least, found " + std::to_string(estimates.size()) + ".");
+  }
+  std::vector<pipeline::Estimate> photos;
+  for (const EstimatedPtr& one : estimates) {
+    if (!one) throw Error(ExitCode::kUsage, "One of the estimates is None.");
+    photos.push_back(one->estimate);  // the old ones keep theirs: arrays look into them
+  }
+  estimator.same_person(photos);
+  std::vector<EstimatedPtr> shared;
+  for (std::size_t i = 0; i < photos.size(); ++i) {
+    const Estimated& old = *estimates[i];
+    shared.push_back(std::make_shared<Estimated>(Estimated{old.photo, std::move(photos[i]), old.options, old.source}));
+  }
+  return shared;
+}
+
 EstimatedPtr estimate(const py::object& photo, EstimateOptions options) {
   PhotoSource source(photo);  // before the models: a typing error should not cost their loading
   const py::gil_scoped_release release;
@@ -193,7 +213,12 @@ photo: a path; or uint8 (H, W, 3), sRGB; or float32 (H, W, 3), linear Rec.709, 1
            R"(One distant LightResult for the faces of several photos, as `faceprobe estimate --same-light`.
 
 estimates: of photos that one camera took from one place in the same light, such as a burst. Each face is first scaled to
-    the mean energy of the single estimates, because photos tell neither albedos nor exposures. Raises UsageError for none.)");
+    the mean energy of the single estimates, because photos tell neither albedos nor exposures. Raises UsageError for none.)")
+      .def("same_person", &same_person_with, py::arg("estimates"),
+           R"(New Estimates of photos of one person, each in a light of its own, as `faceprobe estimate --same-person`.
+
+estimates: two at least, of this Estimator. The largest face of each photo takes the person's albedo, level and tint region by
+    region, and one gain of highlights; its light is found again. Face.shading_gain says what changed. Raises UsageError.)");
 }
 
 }  // namespace faceprobe::python

@@ -10,6 +10,7 @@
 #include <mutex>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace faceprobe::python {
 
@@ -39,6 +40,10 @@ class TurnTaker {
   pipeline::LightResult joint(const std::vector<pipeline::FaceEvidence>& faces) const {
     const std::lock_guard<std::mutex> turn(mutex_);
     return estimator_.joint(faces);
+  }
+  void same_person(std::vector<pipeline::Estimate>& photos) const {
+    const std::lock_guard<std::mutex> turn(mutex_);
+    estimator_.same_person(photos);
   }
 
  private:

@@ -22,6 +22,11 @@ py::tuple box_of(const FaceEstimate& face) {
   return py::make_tuple(box.x, box.y, box.width, box.height);
 }
 
+py::object shading_gain_of(const FaceEstimate& face) {
+  if (!face.same_person) return py::none();
+  return table(face.same_person->shading_gain);
+}
+
 py::object skin_albedo_of(const FaceEstimate& face) {
   const std::optional<Eigen::Vector3f> albedo = pipeline::mean_skin_albedo(face);
   if (!albedo) return py::none();
@@ -72,6 +77,11 @@ None where the network split albedo and shading (shading="net"), and of a grey p
           R"(float32 (3,): albedo of the skin, linear, mean by the light that falls on it. A copy; None without any.
 
 Its level is assumed: a photo does not tell a dark skin from a short exposure, so this does not say how light a skin is.)")
+      .def_property_readonly(
+          "shading_gain", &shading_gain_of,
+          R"(float32 (3,): what the light of this photo was multiplied by so that its skin is the person's. A copy.
+
+None without Estimator.same_person.)")
       .def_property_readonly(
           "crop",
           [](const FaceEstimate& f) {

@@ -45,6 +45,10 @@ void bind_light(py::module_& module) {
       .def_readonly("peak_radiance", &MainLight::peak_radiance, "Luminance of the brightest spot.")
       .def_readonly("solid_angle_sr", &MainLight::solid_angle_sr, "Size of an even disc with the same peak.")
       .def_readonly("share", &MainLight::share, "Of the whole map's energy, 0 to 1.")
+      .def_readonly("direction_uncertainty_deg", &MainLight::direction_uncertainty_deg,
+                    "One standard deviation of the direction, degrees; None with the paper's solver.")
+      .def_readonly("irradiance_uncertainty", &MainLight::irradiance_uncertainty,
+                    "One standard deviation of the irradiance, relative; None with the paper's solver.")
       .def("__repr__", &text_of);
 
   using ResultPtr = std::shared_ptr<LightResult>;

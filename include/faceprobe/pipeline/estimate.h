@@ -114,6 +114,15 @@ struct FaceSources {
   PriorSource prior = PriorSource::kSmooth;
 };
 
+// What a face has from the other photos of its person, Estimator::same_person().
+struct SamePerson {
+  std::size_t photos = 0;  // that took part, this one among them
+  Eigen::Vector3f shading_gain =
+      Eigen::Vector3f::Ones();  // what the light of this photo was multiplied by: own albedo over the person's
+  Eigen::Vector3f albedo = Eigen::Vector3f::Zero();  // the person's mean albedo, linear
+  double trust = 1;  // weight of this photo's own colour among the others: 1 where it agrees, towards 0 for an outlier
+};
+
 struct FaceEstimate : LightResult {
   face::Face face;
   bool enough_shown =
@@ -129,6 +138,7 @@ struct FaceEstimate : LightResult {
   // See lighting::AlbedoModel; of the regions' albedo alone, the network states no error.
   std::optional<double> light_colour_uncertainty_deg;
   lighting::Observations observations;
+  std::optional<SamePerson> same_person;  // by Estimator::same_person() alone
 };
 
 // The diffuse layer over the shading, both summed over skin that is neither clipped nor lips or brows: the skin's albedo, linear, mean by the light
@@ -189,6 +199,12 @@ class Estimator {
   // neither albedos nor exposures. Of grey faces alone the light is grey. The prior is asked when the photos show enough of all of them. Many faces are thinned to options().max_patches
   // in all. Throws std::invalid_argument for none.
   LightResult joint(const std::vector<FaceEvidence>& faces) const;
+  // Photos of one person, each in a light of its own: what belongs to the person is made one. Each face's albedo takes the person's level and tint,
+  // region by region (lighting/shared_skin.h), its shading what that leaves of the diffuse layer, and the highlights' gain is the person's too
+  // (lighting::shared_gain); then the lights are found again. So single photos' mistakes of skin for light average out, and the colours of the lights can
+  // be compared; their levels as far as exposures can. Of each photo the largest face is taken; who it is is not looked at. Photos without lit
+  // skin, or one photo, stay as they are. The estimates should be this estimator's, or of the same options.
+  void same_person(std::vector<Estimate>& photos) const;
   // The faces alone, left to right; empty when there are none. Throws Error(kUsage) for a photo without pixels.
   std::vector<face::Face> find_faces(const io::Photo& photo) const;
   // The two layers at the photo's own size: H x W x 3 each, linear; highlight is 0 outside the faces' skin, diffuse is the
@@ -196,6 +212,8 @@ class Estimator {
   highlight::Layers separate(const io::Photo& photo) const;
 
  private:
+  LightResult joint_of(const Estimate& photo) const;
+
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
