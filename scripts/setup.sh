@@ -19,6 +19,7 @@ debian_packages=(
   libcpp-httplib-dev nlohmann-json3-dev libcli11-dev libspdlog-dev libnanoflann-dev libgtest-dev
   python3-dev python3-numpy pybind11-dev
   python3-matplotlib python3-skimage  # of two tests: the notebook, and our image metrics against theirs
+  python3-jsonschema  # of one: reports against docs/schema
 )
 developer_packages=(clang clang-format clang-tidy doxygen)
 
