@@ -30,9 +30,10 @@ inline constexpr float kSkinLuminance = 0.35F;  // assumed mean diffuse albedo; 
 
 // What skins are like before the photo is asked: mean of log(r/g) and log(b/g) of their albedo, and the standard deviation of both.
 struct SkinColourPrior {
-  Eigen::Array2d log_ratio;
-  double deviation;
+  Eigen::Array2d log_ratio;  // 2 values: mean of log(r/g), log(b/g)
+  double deviation;          // above 0, of either
 };
+// The one that fit_albedo() goes by.
 SkinColourPrior skin_colour_prior();
 
 // Root mean square angle in degrees between a linear colour and colours whose log(r/g) and log(b/g) are off by independent normal errors of that
