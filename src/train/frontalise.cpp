@@ -4,7 +4,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -83,22 +82,6 @@ class NearestSurface {
   double behind_ = 0;
   std::vector<face::Fragment> fragments_;
 };
-
-struct Corner {
-  int x, y;
-  float weight;
-};
-
-// The four pixels around a place that is at least half a pixel inside the photo.
-std::array<Corner, 4> bilinear(const Source& source, const PhotoSize& photo) {
-  const int x = std::clamp(static_cast<int>(std::floor(source.x_px - 0.5F)), 0, std::max(0, photo.width - 2));
-  const int y = std::clamp(static_cast<int>(std::floor(source.y_px - 0.5F)), 0, std::max(0, photo.height - 2));
-  const float u = source.x_px - 0.5F - static_cast<float>(x);
-  const float v = source.y_px - 0.5F - static_cast<float>(y);
-  const int right = std::min(x + 1, photo.width - 1);
-  const int below = std::min(y + 1, photo.height - 1);
-  return {{{x, y, (1 - u) * (1 - v)}, {right, y, u * (1 - v)}, {x, below, (1 - u) * v}, {right, below, u * v}}};
-}
 
 }  // namespace
 
@@ -183,6 +166,16 @@ Warp face_warp(const FaceTemplate& square, const WarpLandmarks& landmarks, const
   return warp;
 }
 
+std::array<Corner, 4> corners_of(const Source& source, const PhotoSize& photo) {
+  const int x = std::clamp(static_cast<int>(std::floor(source.x_px - 0.5F)), 0, std::max(0, photo.width - 2));
+  const int y = std::clamp(static_cast<int>(std::floor(source.y_px - 0.5F)), 0, std::max(0, photo.height - 2));
+  const float u = source.x_px - 0.5F - static_cast<float>(x);
+  const float v = source.y_px - 0.5F - static_cast<float>(y);
+  const int right = std::min(x + 1, photo.width - 1);
+  const int below = std::min(y + 1, photo.height - 1);
+  return {{{x, y, (1 - u) * (1 - v)}, {right, y, u * (1 - v)}, {x, below, (1 - u) * v}, {right, below, u * v}}};
+}
+
 ByteImage seen(const Warp& warp) {
   ByteImage mask(warp.size_px, warp.size_px, 1);
   std::transform(warp.sources.begin(), warp.sources.end(), mask.data(),
@@ -199,7 +192,7 @@ Image sample(const Image& picture, const Warp& warp) {
   float* out = square.data();
   for (const Source& source : warp.sources) {
     if (source.reach == Reach::kSeen) {
-      for (const Corner& corner : bilinear(source, warp.photo)) {
+      for (const Corner& corner : corners_of(source, warp.photo)) {
         const float* from = picture.pixel(corner.x, corner.y);
         for (int c = 0; c < channels; ++c) out[c] += corner.weight * from[c];
       }
@@ -218,7 +211,7 @@ Image scatter(const Image& square, const Warp& warp) {
   const float* from = square.data();
   for (const Source& source : warp.sources) {
     if (source.reach == Reach::kSeen) {
-      for (const Corner& corner : bilinear(source, warp.photo)) {
+      for (const Corner& corner : corners_of(source, warp.photo)) {
         float* to = picture.pixel(corner.x, corner.y);
         for (int c = 0; c < channels; ++c) to[c] += corner.weight * from[c];
       }

@@ -19,6 +19,7 @@
 #include "faceprobe/face/canonical_mesh.h"
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -81,6 +82,14 @@ struct Warp {
 // Throws std::invalid_argument: options, numbers of landmarks, landmarks that are not finite, a photo without pixels.
 Warp face_warp(const FaceTemplate& square, const WarpLandmarks& landmarks, const PhotoSize& photo,
                const WarpOptions& options = {});
+
+// One of the four pixels between which a place of the photo lies.
+struct Corner {
+  int x = 0, y = 0;
+  float weight = 0;  // the four sum to 1
+};
+// Of a source that is seen: at least half a pixel inside the photo.
+std::array<Corner, 4> corners_of(const Source& source, const PhotoSize& photo);
 
 // size_px x size_px x 1: 255 where the photo shows the face, else 0.
 ByteImage seen(const Warp& warp);
