@@ -27,6 +27,7 @@ CLI::App* add_unwrap(CLI::App& synth, Action& action);  // under synth
 CLI::App* add_pack(CLI::App& synth, Action& action);    // under synth
 void add_train(CLI::App& program, Action& action);
 void add_finetune(CLI::App& program, Action& action);
+void add_finetune_surface(CLI::App& program, Action& action);
 void add_eval(CLI::App& program, Action& action);
 
 // Runs the action; every Error becomes its sentence on stderr and its exit code.

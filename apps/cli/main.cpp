@@ -79,6 +79,7 @@ int main(int argc, char** argv) {
   cli::add_train(program, action);
 #ifndef FACEPROBE_LEAN
   cli::add_finetune(program, action);
+  cli::add_finetune_surface(program, action);
   cli::add_eval(program, action);
 #endif
 #endif

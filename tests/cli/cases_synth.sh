@@ -175,3 +175,28 @@ case_finetune() {
   expect_refused 2 "energy_weight" "${tune[@]}" --people people --config wrong.json -o wrong
   cmp tuned/weights.safetensors again/weights.safetensors || fail "the same run gave other weights"
 }
+
+case_finetune_surface() {
+  local person start=$here/../../models/face.safetensors
+  expect_exit 0 synth --count 2 --size 64 --views 1 --lights 2 --skins-per-person 1 --seed 4 -o faces
+  for person in a b c d; do
+    mkdir -p "people/$person"
+    cp "$data/samples/astronaut.png" "people/$person/1.png"
+    cp "$data/samples/astronaut.png" "people/$person/2.png"
+  done
+  local tune=(finetune-surface --people people --start "$start" --data faces --photos 2 --synthetic-batch 1 --threads 1
+    --max-expression 0.1 --held-out 0.5 --steps 2)
+  expect_refused 3 "faceprobe mesh faces" "${tune[@]}" -o tuned
+  expect_refused 2 "order is 9" "${tune[@]}" --order 9 -o tuned
+  [ ! -e tuned ] || fail "a refusal left a folder"
+  expect_exit 0 mesh faces --threads 1
+  expect_exit 0 "${tune[@]}" --same-light people --validation faces -o tuned
+  expect_stdout "| after |"
+  expect_stdout "On synthetic faces:"
+  expect_files tuned log.csv weights.safetensors
+  expect_exit 0 "${tune[@]}" --same-light people -o again --json
+  expect_json 2 stdout steps
+  expect_json again/weights.safetensors stdout weights
+  json stdout after residual >/dev/null || fail "no score"
+  cmp tuned/weights.safetensors again/weights.safetensors || fail "the same run gave other weights"
+}
