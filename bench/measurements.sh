@@ -5,8 +5,8 @@
 #   bench/measurements.sh --data DIR [BUILD_DIR]
 #   bench/measurements.sh --data DIR --only robustness [BUILD_DIR]   one of: best_case separation highlight_makehuman highlight_photos
 #                                                                    highlight_people highlight_net geometry shading one_lamp
-#                                                                    direction region_photos surface_photos robustness speed
-#                                                                    solve page readme insert insert_cycles synth_cycles
+#                                                                    direction region_photos surface_photos rerender robustness
+#                                                                    speed solve page readme insert insert_cycles synth_cycles
 #                                                                    synth_speed synth_rate
 #   bench/measurements.sh --data DIR --faces FACES ...      for highlight_people, geometry and shading: the dev faces of docs/training.md;
 #                                                           they are left as they are without them
@@ -20,7 +20,7 @@ set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 sections=(best_case separation highlight_makehuman highlight_photos highlight_people highlight_net geometry shading
-          one_lamp direction region_photos surface_photos robustness speed solve page readme insert insert_cycles synth_cycles synth_speed synth_rate)
+          one_lamp direction region_photos surface_photos rerender robustness speed solve page readme insert insert_cycles synth_cycles synth_speed synth_rate)
 data=
 faces=
 training=
@@ -62,6 +62,7 @@ title_of() {
     direction) echo "What better normals are worth: photos under known lights" ;;
     region_photos) echo "Regions of photos" ;;
     surface_photos) echo "Albedo of photos" ;;
+    rerender) echo "Photos made again from their layers" ;;
     robustness) echo "Many kinds of photo" ;;
     speed) echo "Time and memory" ;;
     solve) echo "Solving for the light: against the same products elsewhere, by patches and by cells" ;;
