@@ -11,4 +11,5 @@ build=$root/build/test
 cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DFACEPROBE_UNITY=ON \
   -DFACEPROBE_BUILD_TESTS=ON -DFACEPROBE_BUILD_BENCH=ON -DFACEPROBE_TRAIN=ON -DFACEPROBE_PYTHON=ON
 cmake --build "$build"
-ctest --test-dir "$build" --output-on-failure -j2 "$@"
+# Threads that wait for others sleep: by default those of OpenMP spin, and take the processor from the test beside them.
+OMP_WAIT_POLICY=${OMP_WAIT_POLICY:-passive} ctest --test-dir "$build" --output-on-failure -j2 "$@"

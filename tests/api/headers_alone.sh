@@ -8,15 +8,18 @@ set -euo pipefail
 
 include=$1 compiler=$2
 shift 2
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
 cd "$include"
 mapfile -t headers < <(find faceprobe -name '*.h' | sort)
 [ ${#headers[@]} -gt 0 ] || { echo "no headers under $include"; exit 1; }
-flags=(-std=c++20 -fsyntax-only -Wall -Wextra -Wconversion -Werror -I. "$@" -x c++)
+flags=(-std=c++20 -Wall -Wextra -Wconversion -Werror -I. "$@")
 
-# Headers that Eigen comes with, by whatever way.
-heavy=$(awk '
+# reaching PATTERN: the headers that a file of such a name comes with, by whatever way.
+reaching() {
+  awk -v pattern="^#include <$1" '
   FNR == 1 { file[FILENAME] }
-  /^#include <Eigen\// { heavy[FILENAME] }
+  $0 ~ pattern { heavy[FILENAME] }
   /^#include "faceprobe\// { split($0, part, "\""); uses[FILENAME] = uses[FILENAME] " " part[2] }
   END {
     do {
@@ -28,21 +31,42 @@ heavy=$(awk '
       }
     } while (found)
     for (f in heavy) print f
-  }' "${headers[@]}" | sort -r)
+  }' "${headers[@]}" | sort -r
+}
+
+# read_once NAME: makes NAME.h, which includes <NAME>, to be put before headers that come with <NAME> anyway, so that it is read once. Before others
+# it could hide that they lack something.
+mkdir "$folder/once"
+read_once() {
+  mkdir -p "$(dirname "$folder/once/$1")"
+  echo "#include <$1>" >"$folder/once/$1.h"
+  "$compiler" "${flags[@]}" -x c++-header "$folder/once/$1.h" -o "$folder/once/$1.h.gch"
+}
 
 failures=0
-# check NAME: the source on stdin compiles.
-check() { "$compiler" "${flags[@]}" - || { echo "FAILED: $1"; failures=$((failures + 1)); }; }
+# check NAME [FLAG ...]: the source on stdin compiles.
+check() { "$compiler" "${flags[@]}" -fsyntax-only "${@:2}" -x c++ - || { echo "FAILED: $1"; failures=$((failures + 1)); }; }
+
+heavy=$(reaching Eigen/)
+slow=$(reaching filesystem)
+if [ -n "$heavy" ]; then read_once Eigen/Core; fi
+if [ -n "$slow" ]; then read_once filesystem; fi
 
 alone=0
 for header in "${headers[@]}"; do
-  if [ "$header" != faceprobe/faceprobe.h ] && grep -qxF "$header" <<<"$heavy"; then continue; fi
-  check "$header alone" <<<"#include \"$header\""
+  once=()
+  if grep -qxF "$header" <<<"$heavy"; then
+    [ "$header" = faceprobe/faceprobe.h ] || continue
+    once=(-include "$folder/once/Eigen/Core.h")
+  elif grep -qxF "$header" <<<"$slow"; then
+    once=(-include "$folder/once/filesystem.h")
+  fi
+  check "$header alone" "${once[@]}" <<<"#include \"$header\""
   alone=$((alone + 1))
 done
 rooms=$(cut -d/ -f2 <<<"$heavy" | grep -v '\.h$' | sort -u)
 for room in $rooms; do
-  check "$room's headers in the opposite order" < <(grep "^faceprobe/$room/" <<<"$heavy" | sed 's/.*/#include "&"/')
+  check "$room's headers in the opposite order" -include "$folder/once/Eigen/Core.h" < <(grep "^faceprobe/$room/" <<<"$heavy" | sed 's/.*/#include "&"/')
 done
 
 [ $failures = 0 ] || exit 1
