@@ -11,12 +11,16 @@
 namespace faceprobe::lighting {
 
 Transport build_transport(const Observations& observations, const SphereGrid& grid, int threads, Fresnel fresnel) {
+  return build_transport(observations, grid.directions(), static_cast<float>(grid.cell_solid_angle()), threads, fresnel);
+}
+
+Transport build_transport(const Observations& observations, const Eigen::MatrixX3f& directions, float solid_angle_sr,
+                          int threads, Fresnel fresnel) {
   if (const std::string fault = observations.validate(); !fault.empty()) throw std::invalid_argument(fault);
-  const auto solid_angle = static_cast<float>(grid.cell_solid_angle());
   const bool shadowed = observations.horizon.rows() > 0;
-  const std::vector<HorizonPlace> places = shadowed ? horizon_places(grid.directions()) : std::vector<HorizonPlace>();
+  const std::vector<HorizonPlace> places = shadowed ? horizon_places(directions) : std::vector<HorizonPlace>();
   Transport transport;
-  transport.rows.resize(2 * observations.count(), grid.cell_count());
+  transport.rows.resize(2 * observations.count(), directions.rows());
   parallel_for(static_cast<int>(observations.count()), threads, [&](int first, int last) {
     for (int i = first; i < last; ++i) {
       // Cleared here, so that the threads share the cost of fresh pages.
@@ -29,12 +33,12 @@ Transport build_transport(const Observations& observations, const SphereGrid& gr
       const Microfacet skin = skin_of(observations, i, fresnel);
       HorizonProfile profile{};
       if (shadowed) profile = horizon_profile(observations.horizon.row(i));
-      for (int j = 0; j < grid.cell_count(); ++j) {
-        const Eigen::Vector3f light = grid.direction(j);
+      for (Eigen::Index j = 0; j < directions.rows(); ++j) {
+        const Eigen::Vector3f light = directions.row(j).transpose();
         const float cosine = normal.dot(light);
         if (cosine <= 0.0F) continue;
         const float visible =
-            solid_angle * (shadowed ? profile_visibility(profile, places[static_cast<std::size_t>(j)]) : 1.0F);
+            solid_angle_sr * (shadowed ? profile_visibility(profile, places[static_cast<std::size_t>(j)]) : 1.0F);
         if (visible <= 0.0F) continue;
         highlight[j] = visible * specular_lobe(normal, view, light, skin);
         diffuse[j] = visible * cosine / static_cast<float>(kPi);

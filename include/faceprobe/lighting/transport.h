@@ -31,5 +31,9 @@ enum class Fresnel : std::uint8_t { kSchlick, kConstant };
 // Both at once, which halves the visibility tests. Throws std::invalid_argument for observations that do not validate.
 Transport build_transport(const Observations& observations, const SphereGrid& grid, int threads = 0,
                           Fresnel fresnel = Fresnel::kSchlick);
+// The same of lights anywhere. `directions`: #lights x 3, unit, from the face to the light; each has the same solid angle, in steradians, and is
+// small beside what skin can tell apart. #patches x #lights.
+Transport build_transport(const Observations& observations, const Eigen::MatrixX3f& directions, float solid_angle_sr,
+                          int threads = 0, Fresnel fresnel = Fresnel::kSchlick);
 
 }  // namespace faceprobe::lighting
