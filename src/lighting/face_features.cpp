@@ -61,7 +61,7 @@ const std::array<int, kFeatureCells>& mirror_table() {
 Eigen::VectorXf solved_features(const Observations& observations, float level) {
   Observations open = observations;
   open.horizon.resize(0, kHorizonAzimuths);
-  const SolveOptions options{.nside = 8, .iterations = 30, .threads = 1};
+  const SolveOptions options{.nside = 8, .iterations = 30, .compact_light = false, .threads = 1};
   const Eigen::MatrixX3f light = solve_transport(open, options).radiance / level;
   Eigen::Matrix<float, kFeatureCells, 3, Eigen::RowMajor> cells =
       grid_from_grid(light, SphereGrid(options.nside), feature_grid());

@@ -4,12 +4,14 @@
 #include "faceprobe/lighting/estimate.h"
 #include "faceprobe/lighting/richardson_lucy.h"
 #include "faceprobe/lighting/transport.h"
+#include "lighting/compact_fit.h"
 #include "lighting/residual.h"
 #include "lighting/smooth_start.h"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -130,6 +132,16 @@ Eigen::MatrixX3f coloured(const Rows& rows, const Eigen::VectorXf& level, const 
   return radiance;
 }
 
+void set_ambient(Light& light) {
+  for (int channel = 0; channel < 3; ++channel) {
+    std::vector<float> observed;
+    for (Eigen::Index j = 0; j < light.confidence.size(); ++j) {
+      if (light.confidence[j] > 0.5F) observed.push_back(light.radiance(j, channel));
+    }
+    light.ambient[channel] = quantile_of(std::move(observed), 0.5);
+  }
+}
+
 // How well each cell is observed, and the median of those that are observed well. False when nothing is.
 bool rate(const Eigen::VectorXf& sensitivity, Light& light) {
   // Relative to a typical observed cell: the largest sensitivities belong to grazing mirror angles and say little of the rest.
@@ -139,13 +151,7 @@ bool rate(const Eigen::VectorXf& sensitivity, Light& light) {
   std::copy_if(sensitivity.begin(), sensitivity.end(), std::back_inserter(reached),
                [least](float s) { return s > least; });
   light.confidence = (sensitivity / (0.5F * quantile_of(std::move(reached), 0.5))).cwiseMin(1.0F);
-  for (int channel = 0; channel < 3; ++channel) {
-    std::vector<float> observed;
-    for (Eigen::Index j = 0; j < sensitivity.size(); ++j) {
-      if (light.confidence[j] > 0.5F) observed.push_back(light.radiance(j, channel));
-    }
-    light.ambient[channel] = quantile_of(std::move(observed), 0.5);
-  }
+  set_ambient(light);
   return true;
 }
 
@@ -233,7 +239,17 @@ Light solve_transport(const Observations& observations, const SolveOptions& opti
   } else {
     light.radiance = coloured(rows, found, has_expected ? colours_of(expected) : Eigen::MatrixX3f(), options);
   }
-  if (rate(solved.sensitivity, light) && !has_expected) fill_unobserved(light);
+  const bool rated = rate(solved.sensitivity, light);
+  if (rated && !has_expected) fill_unobserved(light);
+  if (rated && options.compact_light && rows.data.rows() > rows.highlights) {
+    patches.weight = observations.weight;  // what the smooth fit trusts least are cast shadows, a small light's own
+    if (const std::optional<CompactFit> fit =
+            fit_compact_light(patches, transport, rows.highlights > 0, grid, light, options)) {
+      light.radiance = fit->surround + compact_cells(fit->light, grid);
+      light.compact = fit->light;
+      set_ambient(light);
+    }
+  }
   rate_rows(rows, observations.weight, light);
   return light;
 }

@@ -14,6 +14,7 @@
 // lies behind the head comes from the prior; `confidence` says which is which.
 
 #include "faceprobe/core/sphere_grid.h"
+#include "faceprobe/lighting/compact_light.h"
 #include "faceprobe/lighting/observations.h"
 #include "faceprobe/lighting/transport.h"
 
@@ -49,6 +50,9 @@ struct SolveOptions {
   Fresnel fresnel = Fresnel::kSchlick;  // of the highlights
   // Steps of the per-channel stage that colours the luminance solution; few keep the colour smooth over the sphere.
   int colour_iterations = 6;
+  // Transport solver only, with shading rows. Whether the dominant light is tried as a small disc in place of the glow that it was found as, and
+  // kept so where the pixels are explained better by far: see lighting/compact_light.h. Off until it is measured.
+  bool compact_light = false;
   int threads = 0;
 
   std::string validate() const;
@@ -60,6 +64,8 @@ struct Light {
   Eigen::Vector3f ambient;   // median of well observed cells; what unobserved ones are given where no light is expected
   float highlight_gain = 1;  // what the highlights were divided by to agree with the shading
   float leak = 0;            // diffuse light found in the highlights, per unit of shading, and taken out
+  // The dominant light where SolveOptions::compact_light found it to be small. `radiance` has it, over the cells around it.
+  std::optional<CompactLight> compact;
   // What this light leaves unexplained of the rows that it was found from: with p a row's prediction from `radiance`, d what was observed and w the
   // observation's weight, sqrt(sum w (p - d)^2 / sum w d^2) over rows and channels; clipped channels count where p is below d. 0 explains all, 1 no
   // more than darkness does. Highlight rows: d after gain and leak are taken out; the paper's solver: its traced map. Shading rows: the paper's
