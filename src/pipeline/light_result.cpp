@@ -33,7 +33,15 @@ lighting::Observations thinned(const lighting::Observations& all, Eigen::Index k
 LightResult light_result(lighting::Light light, const EstimateOptions& options) {
   const SphereGrid grid(options.solve.nside);
   LightResult result;
-  result.environment = env_map_from_grid(light.radiance, grid, options.map_width, options.map_width / 2);
+  if (light.compact) {
+    // Drawn on the map itself, whose texels are finer than cells: shadows and reflections are sharp.
+    const Eigen::MatrixX3f rest =
+        (light.radiance - lighting::compact_cells(*light.compact, grid)).cwiseMax(0.0F);  // rounding
+    result.environment = env_map_from_grid(rest, grid, options.map_width, options.map_width / 2);
+    lighting::add_compact_light(*light.compact, result.environment);
+  } else {
+    result.environment = env_map_from_grid(light.radiance, grid, options.map_width, options.map_width / 2);
+  }
   const Eigen::MatrixX3f confidence = light.confidence.replicate(1, 3);
   result.confidence = env_map_from_grid(confidence, grid, options.map_width, options.map_width / 2);
   for (float& value : result.confidence.radiance().values()) value = std::min(1.0F, value);
@@ -41,6 +49,7 @@ LightResult light_result(lighting::Light light, const EstimateOptions& options) 
   result.sh = sh::project(small, options.sh_order);
   result.sh4 = sh::project(small, 4);
   result.lights = lighting::main_lights(light.radiance, grid, options.main_lights, light.confidence);
+  if (light.compact) lighting::set_true_size(*light.compact, result.lights);
   result.light = std::move(light);
   return result;
 }

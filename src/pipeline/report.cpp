@@ -47,12 +47,15 @@ Json lights_json(const std::vector<lighting::MainLight>& lights) {
 }
 
 Json light_json(const LightResult& result) {
+  const std::optional<lighting::CompactLight>& compact = result.light.compact;
   return {{"ambient_rgb", array_of(result.light.ambient)},
           {"mean_confidence", result.light.confidence.size() > 0 ? result.light.confidence.mean() : 0.0F},
           {"highlight_gain", result.light.highlight_gain},
           {"highlight_leak", result.light.leak},
           {"highlight_residual", number_or_null(result.light.highlight_residual)},
           {"shading_residual", number_or_null(result.light.shading_residual)},
+          {"compact_light_width_deg", compact ? Json(compact->width_deg) : Json()},
+          {"compact_light_evidence", compact ? Json(compact->evidence) : Json()},
           {"main_lights", lights_json(result.lights)},
           {"light_to_ambient_ratio", lighting::light_to_ambient_ratio(result.lights)},
           {"spherical_harmonics", sh_json(result.sh)},
@@ -137,6 +140,7 @@ Json options_json(const EstimateOptions& options) {
                                                                                                : options.shading)},
           {"solver", lighting::solver_name(options.solve.solver)},
           {"prior", prior_name(options.asks_prior() ? PriorSource::kNet : PriorSource::kSmooth)},
+          {"compact_light", options.solve.compact_light && options.solve.solver == lighting::Solver::kTransport},
           {"iterations", options.solve.iterations},
           {"nside", options.solve.nside},
           {"map_size_px", {options.map_width, options.map_width / 2}},

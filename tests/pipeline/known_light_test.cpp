@@ -99,6 +99,35 @@ TEST(KnownLight, EvenLightHasNoMainLight) {
   EXPECT_NEAR(mean, 1.0, 0.25);
 }
 
+TEST(KnownLight, ACompactLightIsSharpOnTheMapAndItsMainLightIsAsSmall) {
+  const EstimateOptions options;
+  const SphereGrid grid(options.solve.nside);
+  lighting::CompactLight sun;
+  sun.direction = direction_from_angles(33, 41);
+  sun.irradiance = {3, 2.5, 2};
+  sun.width_deg = 0.5;
+  lighting::Light light;
+  light.radiance = Eigen::MatrixX3f::Constant(grid.cell_count(), 3, 0.1F) + lighting::compact_cells(sun, grid);
+  light.confidence.setOnes(grid.cell_count());
+  light.ambient.setConstant(0.1F);
+  light.compact = sun;
+  const LightResult result = light_result(light, options);
+  const EnvMap& map = result.environment;
+  EXPECT_TRUE(map.integral().isApprox((4 * kPi * 0.1 + sun.irradiance.array()).matrix(), 1e-3));
+  // All of it is within two texels of 1.4 degrees; cells alone would spread it over ten degrees.
+  double inside = 0;
+  for (int y = 0; y < map.height(); ++y) {
+    for (int x = 0; x < map.width(); ++x) {
+      if (angle_between_deg(map.direction(x, y).cast<double>(), sun.direction) < 2.8)
+        inside += static_cast<double>(map.radiance()(x, y) - 0.1F) * texel_solid_angle(y, map.width(), map.height());
+    }
+  }
+  EXPECT_NEAR(inside, 3, 0.03);
+  ASSERT_EQ(result.lights.size(), 1U);
+  EXPECT_NEAR(result.lights[0].solid_angle_sr, lighting::solid_angle_sr(sun), 1e-12);
+  EXPECT_LT(angle_between_deg(result.lights[0].direction, sun.direction), 1e-3);
+}
+
 TEST(KnownLight, AnEmptyHighlightLayerIsNoNan) {
   const PosedFace posed = posed_face(0);
   LitFace lit = light_up(posed, {{direction_from_angles(40, 30)}}, 0.05F);
