@@ -70,6 +70,9 @@ std::vector<eval::LightMethod> ablation_methods(const RelightRows& rows) {
   changed("10 iterations", [](EstimateOptions& o) { o.solve.iterations = 10; });
   changed("200 iterations", [](EstimateOptions& o) { o.solve.iterations = 200; });
   methods.push_back(coarse("768 cells", base, 8));
+  // The other way than it is, so that the row stays when the default changes.
+  changed(base.solve.compact_light ? "no compact light" : "compact light where the pixels ask for one",
+          [](EstimateOptions& o) { o.solve.compact_light = !o.solve.compact_light; });
   changed("normals of the mesh", [](EstimateOptions& o) { o.normals = pipeline::NormalSource::kMesh; });
   changed("one albedo a region", [](EstimateOptions& o) { o.shading = pipeline::ShadingSource::kRegions; });
   changed("layers of Yang's separator", [](EstimateOptions& o) { o.classical = highlight::Separator::kYang; });

@@ -135,6 +135,12 @@ void add_solver_options(CLI::App& command, SharedOptions& options) {
           "what light the transport solver starts from: net (trained), or smooth (one lamp and an even surround)")
       ->type_name("{net,smooth}")
       ->capture_default_str();
+  command
+      .add_option("--compact-light", options.compact_light,
+                  "whether the transport solver tries the dominant light as a small disc, such as the sun's, and keeps "
+                  "it where that explains the pixels far better: on or off")
+      ->type_name("{on,off}")
+      ->capture_default_str();
   command.add_option("--iterations", options.iterations, "Richardson-Lucy iterations, 1 to 10000")->capture_default_str();
   command.add_option("--size", options.size, "size of the environment map in pixels, twice as wide as high")
       ->type_name("WIDTH[xHEIGHT]")
@@ -204,6 +210,7 @@ pipeline::EstimateOptions estimate_options(const SharedOptions& options) {
   out.prior =
       one_of(options.prior, "--prior", "net", pipeline::PriorSource::kNet, "smooth", pipeline::PriorSource::kSmooth);
   out.solve.solver = lighting::solver_from_name(options.solver);
+  out.solve.compact_light = one_of(options.compact_light, "--compact-light", "on", true, "off", false);
   out.solve.iterations = options.iterations;
   out.map_width = parse_map_width(options.size);
   out.layer_px = options.layer_px;

@@ -22,6 +22,7 @@ struct SharedOptions {
   std::string shading = "net";
   std::string shading_weights;  // of a network in the place of `shading`; empty = none
   std::string prior = "net";
+  std::string compact_light = pipeline::EstimateOptions{}.solve.compact_light ? "on" : "off";
   std::optional<double> focal_px;
   int iterations = pipeline::EstimateOptions{}.solve.iterations;
   std::string size = "256";

@@ -35,6 +35,7 @@ case_bad_options() {
   expect_refused 2 "3dmm" estimate "$photo" --head heads
   expect_refused 3 "heads" estimate "$photo" --geometry 3dmm --head heads
   expect_refused 2 "smooth" estimate "$photo" --prior crystal
+  expect_refused 2 "on or off" estimate "$photo" --compact-light maybe
   expect_refused 2 "iterations" estimate "$photo" --iterations 0
   expect_refused 2 "layer_px" estimate "$photo" --layer-px 5
   expect_refused 2 "focal" estimate "$photo" --focal-px -3

@@ -23,6 +23,7 @@ geometry: where normals come from: "net" or "mesh".
 shading: what splits the diffuse layer: "net" or "regions" (one albedo a region).
 prior: what light the transport solver starts from: "net" or "smooth".
 solver: "transport", or "paper" (the published scheme).
+compact_light: whether the transport solver tries the dominant light as a small disc and keeps it where the pixels ask for one.
 iterations: of Richardson-Lucy.
 size: width of the environment maps, a multiple of 4, or "WIDTHxHEIGHT" with WIDTH = 2 HEIGHT.
 layer_px: long side of the layers; they are never enlarged.

@@ -84,6 +84,7 @@ pipeline::EstimateOptions options_from(const OptionValues& values) {
   out.prior =
       one_of(values.prior, "prior", "net", pipeline::PriorSource::kNet, "smooth", pipeline::PriorSource::kSmooth);
   out.solve.solver = lighting::solver_from_name(values.solver);
+  out.solve.compact_light = values.compact_light;
   out.solve.iterations = values.iterations;
   out.map_width = width_of(values.size);
   out.layer_px = values.layer_px;

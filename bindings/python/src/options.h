@@ -31,6 +31,7 @@ struct OptionValues {
   std::string separator;
   std::optional<std::filesystem::path> weights;
   std::string geometry, shading, prior, solver;
+  bool compact_light = false;
   int iterations = 0;
   MapSize size;
   int layer_px = 0;
@@ -54,22 +55,23 @@ void with_option_arguments(const Define& define) {
   define(py::kw_only(), py::arg("separator") = usual.separator_name(), py::arg("weights") = py::none(),
          py::arg("geometry") = "net", py::arg("shading") = "net", py::arg("prior") = "net",
          py::arg("solver") = std::string(lighting::solver_name(usual.solve.solver)),
-         py::arg("iterations") = usual.solve.iterations, py::arg("size") = usual.map_width,
-         py::arg("layer_px") = usual.layer_px, py::arg("focal_px") = py::none(), py::arg("landmarks") = py::none(),
-         py::arg("threads") = usual.threads, py::arg("deterministic") = usual.deterministic, py::arg("device") = "auto");
+         py::arg("compact_light") = usual.solve.compact_light, py::arg("iterations") = usual.solve.iterations,
+         py::arg("size") = usual.map_width, py::arg("layer_px") = usual.layer_px, py::arg("focal_px") = py::none(),
+         py::arg("landmarks") = py::none(), py::arg("threads") = usual.threads,
+         py::arg("deterministic") = usual.deterministic, py::arg("device") = "auto");
 }
 
 // call(front..., EstimateOptions) as a function of front... and the keywords.
 template <class... Front, class Call>
 auto taking_options(Call call) {
   return [call](Front... front, std::string separator, std::optional<std::filesystem::path> weights,
-                std::string geometry, std::string shading, std::string prior, std::string solver, int iterations,
-                MapSize size, int layer_px, std::optional<double> focal_px, std::optional<Landmarks> landmarks,
-                int threads, bool deterministic, std::string device) {
+                std::string geometry, std::string shading, std::string prior, std::string solver, bool compact_light,
+                int iterations, MapSize size, int layer_px, std::optional<double> focal_px,
+                std::optional<Landmarks> landmarks, int threads, bool deterministic, std::string device) {
     return call(std::move(front)...,
                 options_from({std::move(separator), std::move(weights), std::move(geometry), std::move(shading),
-                              std::move(prior), std::move(solver), iterations, std::move(size), layer_px, focal_px,
-                              std::move(landmarks), threads, deterministic, std::move(device)}));
+                              std::move(prior), std::move(solver), compact_light, iterations, std::move(size), layer_px,
+                              focal_px, std::move(landmarks), threads, deterministic, std::move(device)}));
   };
 }
 
