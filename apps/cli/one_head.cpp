@@ -18,7 +18,7 @@ synth::HeadModel load_one_head(const std::string& path) {
   return std::move(models.front());
 }
 
-pipeline::SurfaceFit surface_of_head(const std::string& path, int threads) {
+face::SurfaceFit surface_of_head(const std::string& path, int threads) {
   return pipeline::head_geometry(load_one_head(path), face::FaceFinder({.threads = threads}), threads);
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 // One head model by its path, for the verbs that fit one to a photo.
 
-#include "faceprobe/pipeline/estimate.h"
+#include "faceprobe/face/geometry.h"
 #include "faceprobe/synth/head_model.h"
 
 #include <string>
@@ -11,6 +11,6 @@ namespace faceprobe::cli {
 // A file, or an ICT-FaceKit folder. Throws Error(kUsage) when the path holds several; as assets::load_heads does.
 synth::HeadModel load_one_head(const std::string& path);
 // For EstimateOptions::surface_fit.
-pipeline::SurfaceFit surface_of_head(const std::string& path, int threads);
+face::SurfaceFit surface_of_head(const std::string& path, int threads);
 
 }  // namespace faceprobe::cli

@@ -11,11 +11,11 @@ GeometryMethod mesh_method(std::shared_ptr<const face::FaceFinder> finder) {
   return surface_method("mesh", std::move(finder), {});
 }
 
-GeometryMethod surface_method(std::string name, std::shared_ptr<const face::FaceFinder> finder, SurfaceChange change) {
+GeometryMethod surface_method(std::string name, std::shared_ptr<const face::FaceFinder> finder, face::SurfaceFit fit) {
   auto mesh =
       std::make_shared<const face::CanonicalMesh>(face::load_canonical_mesh(io::data_file("canonical-face-model.obj")));
   return {std::move(name),
-          [finder = std::move(finder), mesh, change = std::move(change)](const PhotoInput& input) -> GeometryEstimate {
+          [finder = std::move(finder), mesh, fit = std::move(fit)](const PhotoInput& input) -> GeometryEstimate {
             const std::vector<face::Face> found = finder->find(input.linear, input.camera);
             if (found.empty()) return {};
             const auto largest = std::max_element(found.begin(), found.end(), [](const auto& a, const auto& b) {
@@ -24,7 +24,7 @@ GeometryMethod surface_method(std::string name, std::shared_ptr<const face::Face
             const face::Crop whole{
                 .x_px = 0, .y_px = 0, .scale = 1, .width = input.linear.width(), .height = input.linear.height()};
             face::FaceGeometry geometry = face::rasterize(*largest, input.camera, *mesh, whole);
-            if (change) change(*largest, input.camera, geometry);
+            if (fit) fit(*largest, input.camera, geometry);
             return {std::move(geometry.normal_cam), {}, std::move(geometry.region)};
           }};
 }

@@ -54,7 +54,7 @@ void locate_landmarks(synth::HeadModel& model, const face::FaceFinder& finder) {
 
 }  // namespace
 
-SurfaceFit head_geometry(synth::HeadModel model, const face::FaceFinder& finder, int threads) {
+face::SurfaceFit head_geometry(synth::HeadModel model, const face::FaceFinder& finder, int threads) {
   auto fitted = std::make_shared<FittedModel>();
   for (int t = 0; t < model.triangles.rows(); ++t) {
     if (model.triangle_material[static_cast<std::size_t>(t)] == synth::Material::kSkin) fitted->skin.push_back(t);

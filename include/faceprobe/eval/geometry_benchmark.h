@@ -37,10 +37,8 @@ struct GeometryMethod {
 // The dense face mesh, posed and rasterised: what the light is read from without a network. The finder must be used by nobody else
 // meanwhile. Throws Error(kModel) when the mesh's file is missing.
 GeometryMethod mesh_method(std::shared_ptr<const face::FaceFinder> finder);
-// Puts another surface over the mesh's: normal_cam where it covers the face.
-using SurfaceChange = std::function<void(const face::Face&, const face::Camera&, face::FaceGeometry&)>;
 // The same as mesh_method() with another surface, such as that of a fitted head model (pipeline/head_geometry.h).
-GeometryMethod surface_method(std::string name, std::shared_ptr<const face::FaceFinder> finder, SurfaceChange change);
+GeometryMethod surface_method(std::string name, std::shared_ptr<const face::FaceFinder> finder, face::SurfaceFit fit);
 
 struct GeometryBenchmark {
   int samples = 200;  // of as many people as possible; those that show less than 5 % skin are left out

@@ -16,6 +16,7 @@
 #include "faceprobe/face/region.h"
 
 #include <Eigen/Core>
+#include <functional>
 #include <string>
 
 namespace faceprobe::face {
@@ -47,6 +48,10 @@ struct FaceGeometry {
   // Crop x 1: the angle by which the normal is expected to be off, from what made it; empty = not known, as of the mesh.
   Image normal_error_rad = {};
 };
+
+// Puts another surface of a face over the mesh's: normal_cam and position_cam_m where it covers them, and normal_error_rad if it knows.
+// pipeline/head_geometry.h makes one of a head model.
+using SurfaceFit = std::function<void(const Face&, const Camera&, FaceGeometry&)>;
 
 // The crop that a face gets: its box and the margin, cut off half a photo outside. Throws Error(kUsage) for options that do not validate.
 Crop face_crop(const Face& face, int photo_width, int photo_height, const GeometryOptions& options);

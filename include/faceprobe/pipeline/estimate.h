@@ -41,9 +41,6 @@ enum class NormalSource {
   kNet,   // the network, per pixel, with an error of its own
   kFit,   // a head model fitted to the landmarks: EstimateOptions::surface_fit
 };
-// Puts another surface of a face over the mesh's: normal_cam and position_cam_m where it covers them, and normal_error_rad if it knows.
-// head_geometry.h makes one of a head model.
-using SurfaceFit = std::function<void(const face::Face&, const face::Camera&, face::FaceGeometry&)>;
 enum class ShadingSource {
   kRegions,  // one albedo a region, see lighting/albedo.h
   kNet,      // the network's shading; what the diffuse layer is beyond it is albedo
@@ -65,7 +62,7 @@ struct EstimateOptions {
   std::optional<highlight::Separator> classical;
   std::filesystem::path weights;  // of the network, "face" or "unet"; empty = those that come with the program (models/README.md)
   NormalSource normals = NormalSource::kNet;
-  SurfaceFit surface_fit;  // for NormalSource::kFit
+  face::SurfaceFit surface_fit;  // for NormalSource::kFit
   ShadingSource shading = ShadingSource::kNet;
   ShadingSplit shading_split;             // for ShadingSource::kGiven
   PriorSource prior = PriorSource::kNet;  // with a classical separator the smooth one, which needs no network

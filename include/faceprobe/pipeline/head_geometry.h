@@ -12,7 +12,7 @@
 // they are the fitted head's.
 
 #include "faceprobe/face/face.h"
-#include "faceprobe/pipeline/estimate.h"
+#include "faceprobe/face/geometry.h"
 #include "faceprobe/synth/head_model.h"
 
 namespace faceprobe::pipeline {
@@ -21,6 +21,6 @@ namespace faceprobe::pipeline {
 // standard deviation of ridge on identity and expression), bends the picture of the model onto the landmarks and draws its skin where the mesh
 // has face. A model without dense landmarks is shown to `finder` once, to learn where they are; where that finds no face, its 68 landmarks
 // have to do. `threads`: 0 = all. Throws Error(kModel) for a model without skin or landmarks.
-SurfaceFit head_geometry(synth::HeadModel model, const face::FaceFinder& finder, int threads = 0);
+face::SurfaceFit head_geometry(synth::HeadModel model, const face::FaceFinder& finder, int threads = 0);
 
 }  // namespace faceprobe::pipeline
