@@ -11,7 +11,6 @@
 
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -27,7 +26,7 @@ struct Options : SharedOptions {
   std::string output = "faceprobe-insert";
   std::string object = "pot";
   std::string material, kind, colour;
-  std::optional<float> roughness, index;
+  std::optional<float> roughness, ior;
   std::string matte;
   std::vector<double> at_px;
   std::optional<float> beside_m, depth_m, height_m;
@@ -46,22 +45,9 @@ Image matte_of(const Options& options) {
 }
 
 render::MaterialChange change_of(const Options& options) {
-  render::MaterialChange change{.roughness = options.roughness, .index = options.index};
-  const std::vector<std::string>& kinds = render::material_kind_names();
-  if (!options.kind.empty()) {
-    if (std::ranges::find(kinds, options.kind) == kinds.end()) {
-      throw Error(ExitCode::kUsage, "There is no kind of material called '" + options.kind + "'; take one of " +
-                                        assets::listed(kinds) + ".");
-    }
-    change.kind = render::material_kind(options.kind);
-  }
-  if (options.colour.empty()) return change;
-  change.colour = render::colour_from(options.colour);
-  if (!change.colour) {
-    throw Error(
-        ExitCode::kUsage,
-        "A colour is R,G,B of linear light, from 0 to 1, or #rrggbb as on web pages; found '" + options.colour + "'.");
-  }
+  render::MaterialChange change{.roughness = options.roughness, .ior = options.ior};
+  if (!options.kind.empty()) change.kind = render::material_kind_from_name(options.kind);
+  if (!options.colour.empty()) change.colour = render::colour_from(options.colour);
   return change;
 }
 
@@ -140,7 +126,7 @@ void add_insert(CLI::App& program, Action& action) {
       ->type_name("{" + joined(render::material_kind_names(), ",") + "}");
   command->add_option("--roughness", options->roughness,
                       "of metal and plastic, from 0, a mirror, to 1; default: the material's own");
-  command->add_option("--ior", options->index,
+  command->add_option("--ior", options->ior,
                       "index of refraction of plastic and glass, from 1 to 3; default: the material's own");
   command
       ->add_option("--at", options->at_px,

@@ -59,10 +59,10 @@ Json files_json(const std::vector<ServedFile>& files) {
 
 Json material_json(const render::Material& material) {
   return {{"name", material.name},
-          {"kind", render::name_of(material.kind)},
+          {"kind", render::material_kind_name(material.kind)},
           {"colour_rgb", vector_json(material.colour)},
           {"roughness", material.roughness},
-          {"index", material.index}};
+          {"index", material.ior}};
 }
 
 Json object_json(const std::string& name, const render::Model& model) {

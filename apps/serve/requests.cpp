@@ -1,6 +1,6 @@
 #include "serve/requests.h"
 
-#include "faceprobe/assets/named_model.h"
+#include "faceprobe/core/error.h"
 #include "faceprobe/render/material.h"
 #include "faceprobe/render/shapes.h"
 
@@ -84,7 +84,7 @@ std::optional<Eigen::Vector3f> take_colour(Json& json, const char* key) {
 void check_name(const std::string& name, const std::vector<std::string>& known, const char* what) {
   if (std::ranges::find(known, name) != known.end()) return;
   throw Refusal(FailureKind::kUsage,
-                "There is no " + std::string(what) + " '" + name + "'; there are " + assets::listed(known) + ".");
+                "There is no " + std::string(what) + " '" + name + "'; there are " + listed(known) + ".");
 }
 
 std::optional<float> as_float(std::optional<double> value) {
@@ -96,11 +96,11 @@ render::MaterialChange take_surface(Json& json) {
   render::MaterialChange surface;
   if (const std::string kind = take_text(json, "kind", ""); !kind.empty()) {
     check_name(kind, render::material_kind_names(), "kind of material");
-    surface.kind = render::material_kind(kind);
+    surface.kind = render::material_kind_from_name(kind);
   }
   surface.colour = take_colour(json, "colour_rgb");
   surface.roughness = as_float(take_number(json, "roughness"));
-  surface.index = as_float(take_number(json, "index"));
+  surface.ior = as_float(take_number(json, "index"));
   return surface;
 }
 

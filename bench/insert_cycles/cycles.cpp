@@ -28,7 +28,7 @@ nlohmann::json write_mesh(const fs::path& path, const render::TriangleMesh& mesh
 }
 
 nlohmann::json described(const std::string& kind, const render::Material& material) {
-  return {{"kind", kind}, {"colour", material.colour.x()}, {"roughness", material.roughness}, {"index", material.index}};
+  return {{"kind", kind}, {"colour", material.colour.x()}, {"roughness", material.roughness}, {"index", material.ior}};
 }
 
 }  // namespace

@@ -40,8 +40,8 @@ const std::vector<TestMaterial>& test_materials() {
       // White, so that Schlick's term is 1: Cycles' metal has none.
       {"metal", {.kind = MaterialKind::kMetal, .colour = kWhite, .roughness = 0.45F}},
       {"mirror", {.kind = MaterialKind::kMetal, .colour = kWhite}},
-      {"plastic", {.kind = MaterialKind::kPlastic, .colour = 0.9F * kWhite, .index = 1.362F}},
-      {"glass", {.kind = MaterialKind::kGlass, .colour = kWhite, .index = 1.5F}}};
+      {"plastic", {.kind = MaterialKind::kPlastic, .colour = 0.9F * kWhite, .ior = 1.362F}},
+      {"glass", {.kind = MaterialKind::kGlass, .colour = kWhite, .ior = 1.5F}}};
   return kAll;
 }
 

@@ -124,8 +124,8 @@ void MaterialReader::read_mtl(const aiMaterial& source, Material& material) cons
   if (number(source, AI_MATKEY_OPACITY, 1) < 0.5F) {
     material.kind = MaterialKind::kGlass;
     const float index = number(source, AI_MATKEY_REFRACTI, 1.5F);
-    if (index > 1.01F && index < 3) material.index = index;  // 1 is what writers put who do not know
-  } else if (glossy && light >= 2) {                         // illum 0 and 1 have no highlight
+    if (index > 1.01F && index < 3) material.ior = index;  // 1 is what writers put who do not know
+  } else if (glossy && light >= 2) {                       // illum 0 and 1 have no highlight
     material.kind = MaterialKind::kPlastic;
     material.roughness = std::pow(2 / (shine + 2), 0.25F);  // Blinn-Phong's exponent as GGX's alpha, whose root this is
   }

@@ -4,6 +4,7 @@
 #include "faceprobe/render/shapes.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace faceprobe::assets {
@@ -26,7 +27,7 @@ void change_materials(const render::MaterialChange& change, std::vector<render::
         ExitCode::kUsage,
         "Roughness shows on metal and plastic, and the object is of neither; choose one of these kinds for it.");
   }
-  if (change.index && !any_is(Kind::kPlastic, Kind::kGlass)) {
+  if (change.ior && !any_is(Kind::kPlastic, Kind::kGlass)) {
     throw Error(ExitCode::kUsage,
                 "An index of refraction shows in plastic and glass, and the object is of neither; choose one of these "
                 "kinds for it.");
@@ -35,19 +36,11 @@ void change_materials(const render::MaterialChange& change, std::vector<render::
 
 }  // namespace
 
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
 LoadedModel model_named(const std::filesystem::path& object, const std::string& material,
                         const render::MaterialChange& change, const ModelLimits& limits) {
   const std::vector<std::string>& shapes = render::shape_names();
-  const std::vector<std::string>& presets = render::material_preset_names();
-  if (!material.empty() && !is_among(presets, material))
-    throw Error(ExitCode::kUsage,
-                "There is no material called '" + material + "'; take one of " + listed(presets) + ".");
+  std::optional<render::Material> preset;  // before the file is read: a typing error should not cost that
+  if (!material.empty()) preset = render::material_preset(material);
   LoadedModel loaded;
   if (is_among(shapes, object.string())) {
     loaded.model = render::shape(object.string());
@@ -57,8 +50,8 @@ LoadedModel model_named(const std::filesystem::path& object, const std::string& 
   } else {
     loaded = load_model(object, limits);
   }
-  if (!material.empty()) {
-    loaded.model.materials = {render::material_preset(material)};
+  if (preset) {
+    loaded.model.materials = {*std::move(preset)};
     for (render::TriangleMesh& mesh : loaded.model.meshes) mesh.material = 0;
   }
   if (!change.empty()) change_materials(change, loaded.model.materials);

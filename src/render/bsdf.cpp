@@ -64,7 +64,7 @@ bool Bsdf::only_picks_directions() const {
   return kind == MaterialKind::kGlass || (kind == MaterialKind::kMetal && finish->lobe == nullptr);
 }
 
-float Bsdf::coat() const { return dielectric_fresnel(std::max(kGrazing, normal.dot(view)), finish->material.index); }
+float Bsdf::coat() const { return dielectric_fresnel(std::max(kGrazing, normal.dot(view)), finish->material.ior); }
 
 float Bsdf::chance_of_coat() const {
   if (half != Half::kBoth) return half == Half::kMirrored ? 1.0F : 0.0F;
@@ -117,7 +117,7 @@ Bsdf::Draw Bsdf::from_lobe(const Eigen::Vector2f& random) const {
 
 Bsdf::Draw Bsdf::glass(float choice) const {
   const float cosine = std::clamp(normal.dot(view), 0.0F, 1.0F);
-  const float index = inside ? 1 / finish->material.index : finish->material.index;
+  const float index = inside ? 1 / finish->material.ior : finish->material.ior;
   const float fresnel = dielectric_fresnel(cosine, index);
   if (half == Half::kMirrored) return {mirrored(view, normal), Eigen::Vector3f::Constant(fresnel), 0};
   const float chance = half == Half::kRest ? 0 : fresnel;

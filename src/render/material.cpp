@@ -1,6 +1,7 @@
 #include "faceprobe/render/material.h"
 
 #include "faceprobe/core/color.h"
+#include "faceprobe/core/error.h"
 
 #include <algorithm>
 #include <array>
@@ -16,7 +17,7 @@ struct Preset {
   MaterialKind kind;
   std::array<float, 3> colour;
   float roughness;
-  float index;
+  float ior;
 };
 
 // Gold and silver: reflectances at normal incidence in linear Rec.709, table 9.2 of Akenine-Moeller et al., Real-Time Rendering, 4th
@@ -59,8 +60,8 @@ std::string Material::validate() const {
   if (!within(roughness, 0, 1)) {
     return "A material's roughness must be from 0 to 1, found " + std::to_string(roughness) + ".";
   }
-  if (!within(index, 1, 3)) {
-    return "A material's index of refraction must be from 1 to 3, found " + std::to_string(index) + ".";
+  if (!within(ior, 1, 3)) {
+    return "A material's index of refraction must be from 1 to 3, found " + std::to_string(ior) + ".";
   }
   if (!texture.empty() && texture.channels() != 3) {
     return "A material's texture must have 3 channels, found " + std::to_string(texture.channels()) + ".";
@@ -71,13 +72,15 @@ std::string Material::validate() const {
 Material material_preset(std::string_view name) {
   const auto* const found =
       std::find_if(kPresets.begin(), kPresets.end(), [&](const Preset& p) { return p.name == name; });
-  if (found == kPresets.end()) throw std::invalid_argument("There is no material '" + std::string(name) + "'.");
+  if (found == kPresets.end())
+    throw Error(ExitCode::kUsage, "There is no material called '" + std::string(name) + "'; take one of " +
+                                      listed(material_preset_names()) + ".");
   Material material;
   material.name = found->name;
   material.kind = found->kind;
   material.colour = Eigen::Vector3f(found->colour[0], found->colour[1], found->colour[2]);
   material.roughness = found->roughness;
-  material.index = found->index;
+  material.ior = found->ior;
   return material;
 }
 
@@ -91,15 +94,17 @@ const std::vector<std::string>& material_preset_names() {
   return names;
 }
 
-std::string name_of(MaterialKind kind) {
+std::string_view material_kind_name(MaterialKind kind) {
   const auto* const found = std::find_if(kKinds.begin(), kKinds.end(), [&](const auto& k) { return k.first == kind; });
   if (found == kKinds.end()) throw std::invalid_argument("This is no kind of material.");
-  return std::string(found->second);
+  return found->second;
 }
 
-MaterialKind material_kind(std::string_view name) {
+MaterialKind material_kind_from_name(std::string_view name) {
   const auto* const found = std::find_if(kKinds.begin(), kKinds.end(), [&](const auto& k) { return k.second == name; });
-  if (found == kKinds.end()) throw std::invalid_argument("There is no kind of material '" + std::string(name) + "'.");
+  if (found == kKinds.end())
+    throw Error(ExitCode::kUsage, "There is no kind of material called '" + std::string(name) + "'; take one of " +
+                                      listed(material_kind_names()) + ".");
   return found->first;
 }
 
@@ -113,14 +118,14 @@ const std::vector<std::string>& material_kind_names() {
   return names;
 }
 
-bool MaterialChange::empty() const { return !kind && !colour && !roughness && !index; }
+bool MaterialChange::empty() const { return !kind && !colour && !roughness && !ior; }
 
 std::string MaterialChange::validate() const { return changed({}, *this).validate(); }
 
 Material changed(Material material, const MaterialChange& change) {
   material.kind = change.kind.value_or(material.kind);
   material.roughness = change.roughness.value_or(material.roughness);
-  material.index = change.index.value_or(material.index);
+  material.ior = change.ior.value_or(material.ior);
   if (change.colour) {
     material.colour = *change.colour;
     material.texture = {};
@@ -128,20 +133,24 @@ Material changed(Material material, const MaterialChange& change) {
   return material;
 }
 
-std::optional<Eigen::Vector3f> colour_from(std::string_view text) {
+Eigen::Vector3f colour_from(std::string_view text) {
+  const auto refused = [whole = std::string(text)] {
+    return Error(ExitCode::kUsage,
+                 "A colour is R,G,B of linear light, from 0 to 1, or #rrggbb as on web pages; found '" + whole + "'.");
+  };
   Eigen::Vector3f colour;
   if (text.starts_with('#')) {
-    if (text.size() != 7) return std::nullopt;
+    if (text.size() != 7) throw refused();
     for (int c = 0; c < 3; ++c) {
       unsigned byte = 0;
-      if (!reads(text.substr(1 + 2 * static_cast<std::size_t>(c), 2), byte, 16)) return std::nullopt;
+      if (!reads(text.substr(1 + 2 * static_cast<std::size_t>(c), 2), byte, 16)) throw refused();
       colour[c] = linear_from_srgb(static_cast<float>(byte) / 255);
     }
     return colour;
   }
   for (int c = 0; c < 3; ++c) {
     const std::size_t comma = text.find(',');
-    if ((comma == std::string_view::npos) != (c == 2) || !reads(text.substr(0, comma), colour[c])) return std::nullopt;
+    if ((comma == std::string_view::npos) != (c == 2) || !reads(text.substr(0, comma), colour[c])) throw refused();
     if (c < 2) text.remove_prefix(comma + 1);
   }
   return colour;

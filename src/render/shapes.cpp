@@ -1,10 +1,10 @@
 #include "faceprobe/render/shapes.h"
 
+#include "faceprobe/core/error.h"
 #include "loft.h"
 #include "rounded_box.h"
 
 #include <array>
-#include <stdexcept>
 #include <utility>
 
 namespace faceprobe::render {
@@ -58,7 +58,8 @@ Model shape(std::string_view name) {
   for (const Entry& entry : kShapes) {
     if (entry.name == name) return entry.make();
   }
-  throw std::invalid_argument("There is no shape '" + std::string(name) + "'.");
+  throw Error(ExitCode::kUsage,
+              "There is no shape called '" + std::string(name) + "'; take one of " + listed(shape_names()) + ".");
 }
 
 const std::vector<std::string>& shape_names() {

@@ -73,7 +73,7 @@ TEST(LoadModel, TellsMtlKindsApart) {
   EXPECT_EQ(material("Ns 30\nKs 0.9 0.9 0.9\nillum 2\n").kind, MaterialKind::kPlastic);
   const render::Material glass = material("d 0.1\nNi 1.33\n");
   EXPECT_EQ(glass.kind, MaterialKind::kGlass);
-  EXPECT_NEAR(glass.index, 1.33F, 1e-6F);
+  EXPECT_NEAR(glass.ior, 1.33F, 1e-6F);
 }
 
 TEST(LoadModel, DrawsAnObjWithoutItsMaterialFile) {

@@ -33,7 +33,7 @@ TEST(NamedModel, ItsOwnMaterialsAreChangedEach) {
 
 TEST(NamedModel, AChangeThatWouldNotShowIsASentence) {
   expect_error(ExitCode::kUsage, {"metal and plastic"}, [] { model_named("cube", "glass", {.roughness = 0.5F}); });
-  expect_error(ExitCode::kUsage, {"plastic and glass"}, [] { model_named("cube", "gold", {.index = 1.4F}); });
+  expect_error(ExitCode::kUsage, {"plastic and glass"}, [] { model_named("cube", "gold", {.ior = 1.4F}); });
   EXPECT_NO_THROW(model_named("cube", "glass", {.kind = MaterialKind::kPlastic, .roughness = 0.5F}));
   expect_error(ExitCode::kUsage, {"roughness", "from 0 to 1"}, [] { model_named("cube", "gold", {.roughness = 2}); });
   expect_error(ExitCode::kUsage, {"colour", "from 0 to 1"},

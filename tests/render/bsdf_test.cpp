@@ -142,7 +142,7 @@ TEST(Bsdf, HalvesAddUpToTheWhole) {
 }
 
 TEST(Bsdf, GlassRefractsBySnell) {
-  const Finish finish(Material{.kind = MaterialKind::kGlass, .colour = Eigen::Vector3f::Ones(), .index = 1.5F});
+  const Finish finish(Material{.kind = MaterialKind::kGlass, .colour = Eigen::Vector3f::Ones(), .ior = 1.5F});
   const Eigen::Vector3f view = tilted(30);
   const Bsdf::Draw in =
       Bsdf{&finish, Eigen::Vector3f::Ones(), Eigen::Vector3f::UnitZ(), view, false}.draw(0.999F, {0, 0});

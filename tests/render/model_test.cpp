@@ -1,7 +1,9 @@
 #include "faceprobe/render/model.h"
 
 #include "faceprobe/core/angles.h"
+#include "faceprobe/core/error.h"
 #include "faceprobe/core/vertex_normals.h"
+#include "support/expect_error.h"
 
 #include <gtest/gtest.h>
 
@@ -13,6 +15,8 @@
 
 namespace faceprobe::render {
 namespace {
+
+using faceprobe::testing::expect_error;
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -215,7 +219,7 @@ TEST(Material, EachPresetIsUsable) {
 TEST(Material, PresetsAreWhatTheirNamesSay) {
   EXPECT_EQ(material_preset("diffuse").kind, MaterialKind::kDiffuse);
   EXPECT_EQ(material_preset("plastic").kind, MaterialKind::kPlastic);
-  EXPECT_FLOAT_EQ(material_preset("plastic").index, 1.362F);
+  EXPECT_FLOAT_EQ(material_preset("plastic").ior, 1.362F);
   EXPECT_LT(material_preset("plastic").roughness, kSmooth);
   EXPECT_EQ(material_preset("silver").kind, MaterialKind::kMetal);
   EXPECT_GT(material_preset("silver").roughness, kSmooth);
@@ -226,8 +230,8 @@ TEST(Material, PresetsAreWhatTheirNamesSay) {
 }
 
 TEST(Material, UnknownPresetIsRefused) {
-  EXPECT_THROW(material_preset("unobtainium"), std::invalid_argument);
-  EXPECT_THROW(material_preset(""), std::invalid_argument);
+  expect_error(ExitCode::kUsage, {"'unobtainium'", "silver"}, [] { material_preset("unobtainium"); });
+  expect_error(ExitCode::kUsage, {"''"}, [] { material_preset(""); });
 }
 
 TEST(Material, ColourIsFrom0To1) {
@@ -253,9 +257,9 @@ TEST(Material, RoughnessIsFrom0To1) {
 }
 
 TEST(Material, IndexIsFrom1To3) {
-  for (const float good : {1.0F, 3.0F}) EXPECT_EQ(Material{.index = good}.validate(), "");
+  for (const float good : {1.0F, 3.0F}) EXPECT_EQ(Material{.ior = good}.validate(), "");
   for (const float wrong : {0.99F, 3.01F, kNan, kInfinity}) {
-    EXPECT_TRUE(mentions(Material{.index = wrong}.validate(), "index")) << wrong;
+    EXPECT_TRUE(mentions(Material{.ior = wrong}.validate(), "index")) << wrong;
   }
 }
 

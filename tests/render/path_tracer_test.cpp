@@ -187,7 +187,7 @@ TEST(PathTracer, FromBelowTheGroundIsNotThere) {
 TEST(PathTracer, MirrorShowsThePhotoBehindTheViewOnlyWhereItIs) {
   Image photo(64, 64, 3);
   for (float& v : photo.values()) v = 0.25F;
-  Material clear{.kind = MaterialKind::kGlass, .colour = Eigen::Vector3f::Ones(), .index = 1.0F};  // bends nothing
+  Material clear{.kind = MaterialKind::kGlass, .colour = Eigen::Vector3f::Ones(), .ior = 1.0F};  // bends nothing
   const PathTracer through(ball(clear), even_map(1), {.view = kView, .backdrop = Backdrop{kView, photo}});
   EXPECT_NEAR(light_of(through.render({.samples = 16}).object, 30, 33).x(), 0.25F, 1e-5F);
   const PathTracer mirror(ball({.kind = MaterialKind::kMetal, .colour = Eigen::Vector3f::Ones()}), even_map(1),

@@ -1,6 +1,8 @@
 #include "faceprobe/render/shapes.h"
 
 #include "faceprobe/core/angles.h"
+#include "faceprobe/core/error.h"
+#include "support/expect_error.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +10,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -158,8 +159,9 @@ TEST(Shapes, SpheresDoNotTouch) {
 }
 
 TEST(Shapes, UnknownNameIsRefused) {
-  EXPECT_THROW(shape("dodecahedron"), std::invalid_argument);
-  EXPECT_THROW(shape(""), std::invalid_argument);
+  using faceprobe::testing::expect_error;
+  expect_error(ExitCode::kUsage, {"'dodecahedron'", "sphere, cube, pot, robot, spheres"}, [] { shape("dodecahedron"); });
+  expect_error(ExitCode::kUsage, {"''"}, [] { shape(""); });
 }
 
 }  // namespace

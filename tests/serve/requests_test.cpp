@@ -53,7 +53,7 @@ TEST(InsertionRequests, AMaterialIsChanged) {
   EXPECT_EQ(request.surface.kind, render::MaterialKind::kPlastic);
   EXPECT_EQ(request.surface.colour, Eigen::Vector3f(0.5F, 0, 0.25F));
   EXPECT_EQ(request.surface.roughness, 0.5F);
-  EXPECT_EQ(request.surface.index, 1.25F);
+  EXPECT_EQ(request.surface.ior, 1.25F);
   EXPECT_EQ(request.where.beside_m, -0.5F);
   expect_no_insertion(R"({"object": "cube", "kind": "wood"})", "diffuse, metal, plastic, glass");
   expect_no_insertion(R"({"object": "cube", "kind": 1})", "'kind'");

@@ -45,25 +45,14 @@ using ColourSource = std::variant<std::string, std::array<float, 3>>;
 
 render::MaterialChange change_of(const std::optional<std::string>& kind, const std::optional<ColourSource>& colour,
                                  std::optional<float> roughness, std::optional<float> ior) {
-  render::MaterialChange change{.roughness = roughness, .index = ior};
-  const std::vector<std::string>& kinds = render::material_kind_names();
-  if (kind) {
-    if (std::ranges::find(kinds, *kind) == kinds.end())
-      throw Error(ExitCode::kUsage,
-                  "There is no kind of material called '" + *kind + "'; take one of " + assets::listed(kinds) + ".");
-    change.kind = render::material_kind(*kind);
-  }
+  render::MaterialChange change{.roughness = roughness, .ior = ior};
+  if (kind) change.kind = render::material_kind_from_name(*kind);
   if (!colour) return change;
   if (const auto* rgb = std::get_if<std::array<float, 3>>(&*colour)) {
     change.colour = Eigen::Vector3f((*rgb)[0], (*rgb)[1], (*rgb)[2]);
-    return change;
+  } else {
+    change.colour = render::colour_from(std::get<std::string>(*colour));
   }
-  const auto& text = std::get<std::string>(*colour);
-  change.colour = render::colour_from(text);
-  if (!change.colour)
-    throw Error(
-        ExitCode::kUsage,
-        "A colour is three numbers of linear light, from 0 to 1, or '#rrggbb' as on web pages; found '" + text + "'.");
   return change;
 }
 

@@ -8,7 +8,6 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 namespace faceprobe::assets {
 
@@ -17,8 +16,5 @@ namespace faceprobe::assets {
 // that would show in none of its materials, such as roughness of glass; Error(kInput) as load_model.
 LoadedModel model_named(const std::filesystem::path& object, const std::string& material = "",
                         const render::MaterialChange& change = {}, const ModelLimits& limits = {});
-
-// "a, b, c": for sentences that say what there is.
-std::string listed(const std::vector<std::string>& names);
 
 }  // namespace faceprobe::assets

@@ -14,6 +14,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace faceprobe {
 
@@ -39,5 +40,12 @@ class Error : public std::runtime_error {
  private:
   ExitCode code_;
 };
+
+// "a, b, c": for sentences that say what there is.
+inline std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
 
 }  // namespace faceprobe

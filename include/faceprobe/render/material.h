@@ -28,7 +28,7 @@ struct Material {
       Eigen::Vector3f::Constant(0.8F);  // linear; albedo, or reflectance at normal incidence of a metal
   Image texture{};                      // linear, three channels, v up; multiplies colour; empty = none
   float roughness = 0;  // GGX alpha = roughness^2 (Burley 2012, as in glTF and Blender); below kSmooth an ideal mirror
-  float index = 1.5F;   // of refraction: of a plastic's coat, of glass
+  float ior = 1.5F;     // index of refraction: of a plastic's coat, of glass
 
   // Empty when usable, else a sentence that says which value is wrong.
   std::string validate() const;
@@ -37,13 +37,13 @@ struct Material {
 inline constexpr float kSmooth = 0.03F;  // roughness
 
 // "diffuse", "plastic" (the paper's hard shiny white plastic: index 1.362, smooth), "silver" (matte), "gold", "mirror", "glass", "clay",
-// "red". Throws std::invalid_argument for other names.
+// "red". Throws Error(kUsage) listing the names there are.
 Material material_preset(std::string_view name);
 const std::vector<std::string>& material_preset_names();
 
-// "diffuse", "metal", "plastic", "glass". material_kind() throws std::invalid_argument for other names.
-std::string name_of(MaterialKind kind);
-MaterialKind material_kind(std::string_view name);
+std::string_view material_kind_name(MaterialKind kind);  // "diffuse", "metal", "plastic", "glass"
+// Throws Error(kUsage) listing the names there are.
+MaterialKind material_kind_from_name(std::string_view name);
 const std::vector<std::string>& material_kind_names();
 
 // What is to be other than a material has it; what is unset stays.
@@ -53,7 +53,7 @@ struct MaterialChange {
   std::optional<MaterialKind> kind{};
   std::optional<Eigen::Vector3f> colour{};  // linear; in place of a texture, too
   std::optional<float> roughness{};
-  std::optional<float> index{};
+  std::optional<float> ior{};
 
   bool empty() const;  // whether nothing is to change
   // Empty when usable, else what Material::validate() says of a material that has these.
@@ -62,8 +62,8 @@ struct MaterialChange {
 // The material with what is set in `change`.
 Material changed(Material material, const MaterialChange& change);
 
-// Linear colour of "#c02010", which is sRGB as on web pages, or of "0.5,0.02,0.01", which is linear already and may be out of range. Nothing
-// for other texts.
-std::optional<Eigen::Vector3f> colour_from(std::string_view text);
+// Linear colour of "#c02010", which is sRGB as on web pages, or of "0.5,0.02,0.01", which is linear already and may be out of range. Throws
+// Error(kUsage) for other texts.
+Eigen::Vector3f colour_from(std::string_view text);
 
 }  // namespace faceprobe::render

@@ -19,7 +19,7 @@ Model pot();            // a lathed body with lid, spout and handle, like the we
 Model robot();          // of boxes, balls and rods, in several materials
 Model three_spheres();  // side by side: diffuse, matte silver, mirror: the three-sphere protocol's
 
-// Any of them by name: "sphere", "cube", "pot", "robot", "spheres". Throws std::invalid_argument for other names.
+// Any of them by name: "sphere", "cube", "pot", "robot", "spheres". Throws Error(kUsage) listing the names there are.
 Model shape(std::string_view name);
 const std::vector<std::string>& shape_names();
 
