@@ -1,40 +1,10 @@
 // PNG (ISO/IEC 15948, 11.2.2 IHDR) and WebP (RFC 9649): both put the size at a fixed place near the front.
 
+#include "io/crc32.h"
 #include "io/header_peek.h"
-
-#include <array>
 
 namespace faceprobe::io {
 namespace {
-
-// CRC-32 of PNG's chunks (ISO/IEC 15948, 5.5), four bytes a step.
-using CrcTables = std::array<std::array<std::uint32_t, 256>, 4>;
-
-constexpr CrcTables make_crc_tables() {
-  CrcTables tables{};
-  for (std::uint32_t i = 0; i < 256; ++i) {
-    std::uint32_t value = i;
-    for (int bit = 0; bit < 8; ++bit) value = (value >> 1) ^ ((value & 1) != 0 ? 0xEDB88320U : 0U);
-    tables[0][i] = value;
-  }
-  for (std::size_t t = 1; t < 4; ++t) {
-    for (std::size_t i = 0; i < 256; ++i) tables[t][i] = (tables[t - 1][i] >> 8) ^ tables[0][tables[t - 1][i] & 255];
-  }
-  return tables;
-}
-constexpr CrcTables kCrc = make_crc_tables();
-
-std::uint32_t crc32(std::span<const std::byte> bytes) {
-  std::uint32_t crc = 0xFFFFFFFFU;
-  std::size_t i = 0;
-  const auto byte = [&](std::size_t k) { return std::to_integer<std::uint32_t>(bytes[i + k]); };
-  for (; i + 4 <= bytes.size(); i += 4) {
-    crc ^= byte(0) | (byte(1) << 8) | (byte(2) << 16) | (byte(3) << 24);
-    crc = kCrc[3][crc & 255] ^ kCrc[2][(crc >> 8) & 255] ^ kCrc[1][(crc >> 16) & 255] ^ kCrc[0][crc >> 24];
-  }
-  for (; i < bytes.size(); ++i) crc = (crc >> 8) ^ kCrc[0][(crc ^ byte(0)) & 255];
-  return ~crc;
-}
 
 // What is wrong with the chunks that make the picture. libpng would find it too, but prints what it finds on stderr, and does
 // not miss the end.

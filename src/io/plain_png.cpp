@@ -1,8 +1,10 @@
 #include "io/plain_png.h"
 
+#include "io/crc32.h"
+
 #include <algorithm>
-#include <array>
 #include <cstdint>
+#include <span>
 #include <stdexcept>
 #include <string_view>
 
@@ -16,23 +18,6 @@ using Bytes = std::vector<std::byte>;
 
 void put(Bytes& to, std::uint32_t value, int bytes) {  // most significant first
   for (int i = bytes - 1; i >= 0; --i) to.push_back(static_cast<std::byte>((value >> (8 * i)) & 0xFFU));
-}
-
-std::uint32_t crc32(const std::byte* at, std::size_t size) {
-  static constexpr auto kTable = [] {
-    std::array<std::uint32_t, 256> table{};
-    for (std::uint32_t i = 0; i < table.size(); ++i) {
-      std::uint32_t value = i;
-      for (int bit = 0; bit < 8; ++bit) value = (value & 1U) != 0 ? 0xEDB88320U ^ (value >> 1U) : value >> 1U;
-      table[i] = value;
-    }
-    return table;
-  }();
-  std::uint32_t crc = 0xFFFFFFFFU;
-  for (std::size_t i = 0; i < size; ++i) {
-    crc = kTable[(crc ^ std::to_integer<std::uint32_t>(at[i])) & 0xFFU] ^ (crc >> 8U);
-  }
-  return ~crc;
 }
 
 std::uint32_t adler32(const Bytes& bytes) {
@@ -50,7 +35,7 @@ void put_chunk(Bytes& to, std::string_view type, const Bytes& data) {
   const std::size_t begin = to.size();  // the sum is over type and data
   for (const char letter : type) to.push_back(static_cast<std::byte>(letter));
   to.insert(to.end(), data.begin(), data.end());
-  put(to, crc32(to.data() + begin, to.size() - begin), 4);
+  put(to, crc32(std::span(to).subspan(begin)), 4);
 }
 
 Bytes stored(const Bytes& data) {

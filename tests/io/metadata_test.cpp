@@ -3,6 +3,7 @@
 #include "faceprobe/core/color.h"
 #include "faceprobe/io/photo.h"
 #include "fixtures.h"
+#include "io/crc32.h"
 
 #include <cmath>
 
@@ -25,22 +26,13 @@ Bytes exif_block(int orientation) {
   return b;
 }
 
-std::uint32_t png_crc(std::span<const std::byte> bytes) {  // ISO/IEC 15948, annex D
-  std::uint32_t crc = 0xFFFFFFFFU;
-  for (const std::byte byte : bytes) {
-    crc ^= std::to_integer<std::uint32_t>(byte);
-    for (int k = 0; k < 8; ++k) crc = (crc >> 1) ^ ((crc & 1) != 0 ? 0xEDB88320U : 0U);
-  }
-  return ~crc;
-}
-
 Bytes png_with_exif(const Bytes& png, const Bytes& exif) {
   Bytes chunk = to_bytes("eXIf");
   chunk.insert(chunk.end(), exif.begin(), exif.end());
   Bytes whole;
   put_big(whole, exif.size(), 4);
   whole.insert(whole.end(), chunk.begin(), chunk.end());
-  put_big(whole, png_crc(chunk), 4);
+  put_big(whole, crc32(chunk), 4);
   constexpr std::ptrdiff_t kAfterHeader = 8 + 25;  // signature and IHDR
   Bytes result = png;
   result.insert(result.begin() + kAfterHeader, whole.begin(), whole.end());
