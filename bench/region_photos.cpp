@@ -43,7 +43,7 @@ constexpr std::array<std::array<float, 3>, kKinds> kColours = {{{0, 0, 0},
                                                                 {0.2F, 0.5F, 0.2F}}};
 
 Kind kind_of(std::uint8_t region) {
-  if (region >= 1 && region <= kSkinRegionCount) return kSkin;
+  if (is_skin(static_cast<Region>(region))) return kSkin;
   switch (static_cast<Region>(region)) {
     case Region::kHair: return kHair;
     case Region::kEyes: return kEye;

@@ -48,19 +48,4 @@ std::array<std::uint8_t, 3> region_colour(Region region) {
   return {0, 0, 0};
 }
 
-bool is_probe_skin(Region region) {
-  switch (region) {
-    case Region::kNone:
-    case Region::kLips:
-    case Region::kBrows:
-    case Region::kEyes:
-    case Region::kMouth:
-    case Region::kHair:
-    case Region::kGlasses:
-    case Region::kObject:
-    case Region::kClothes: return false;
-    default: return true;
-  }
-}
-
 }  // namespace faceprobe

@@ -63,15 +63,16 @@ struct Overlap {
   double skin_both = 0, skin_either = 0;
 
   void add(const ByteImage& found, const ByteImage& truth) {
-    const auto is_skin = [](std::uint8_t region) { return region >= 1 && region <= kSkinRegionCount; };
     for (std::size_t i = 0; i < truth.values().size(); ++i) {
       const std::uint8_t a = found.data()[i];
       const std::uint8_t b = truth.data()[i];
       ++either[a];
       if (a == b) ++both[a];
       if (a != b) ++either[b];
-      skin_both += is_skin(a) && is_skin(b) ? 1 : 0;
-      skin_either += is_skin(a) || is_skin(b) ? 1 : 0;
+      const bool skin_a = is_skin(static_cast<Region>(a));
+      const bool skin_b = is_skin(static_cast<Region>(b));
+      skin_both += skin_a && skin_b ? 1 : 0;
+      skin_either += skin_a || skin_b ? 1 : 0;
     }
   }
 };

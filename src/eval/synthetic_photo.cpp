@@ -15,10 +15,10 @@ SyntheticPhoto::SyntheticPhoto(const synth::ShardReader& faces, int number)
       face(synth::face_mask(view, 1.0F)), skin(synth::skin_mask(view)), person(person_key(faces, number)) {
   if (faces.has_meshes()) {
     synth::FoundMesh found = faces.copy_mesh(number);
-    const auto is_skin = [](std::uint8_t region) { return region >= 1 && region <= kSkinRegionCount; };
-    const bool seen = std::ranges::any_of(found.region.values(), is_skin);
+    const auto on_skin = [](std::uint8_t region) { return is_skin(static_cast<Region>(region)); };
+    const bool seen = std::ranges::any_of(found.region.values(), on_skin);
     std::ranges::transform(found.region.values(), face.values().begin(),
-                           [&](std::uint8_t region) { return static_cast<std::uint8_t>(!seen || is_skin(region)); });
+                           [&](std::uint8_t region) { return static_cast<std::uint8_t>(!seen || on_skin(region)); });
     mesh = std::move(found.normal_cam);
   }
   for (std::size_t i = 0; i < skin.values().size(); ++i) skin.data()[i] = skin.data()[i] & face.data()[i];

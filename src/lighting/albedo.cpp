@@ -66,9 +66,9 @@ RegionSamples samples_of(const Image& diffuse, const ByteImage& skin_region, con
                          const Image& normal_cam) {
   std::vector<std::size_t> places;
   for (std::size_t i = 0; i < skin_region.pixel_count(); ++i) {
-    const int region = skin_region.data()[i];
+    const auto region = static_cast<Region>(skin_region.data()[i]);
     const Eigen::Map<const Eigen::Vector3f> normal(normal_cam.data() + 3 * i);
-    if (region >= 1 && region <= kSkinRegionCount && clipped.data()[i] == 0 && normal.norm() > 0.5F)
+    if (is_skin(region) && clipped.data()[i] == 0 && normal.norm() > 0.5F)
       places.push_back(i);
   }
   const std::size_t step = places.size() / kMostSamples + 1;
@@ -111,12 +111,11 @@ AlbedoModel fit_albedo(const Image& diffuse, const ByteImage& skin_region, const
   Mean all;
   for (int y = 0; y < diffuse.height(); ++y) {
     for (int x = 0; x < diffuse.width(); ++x) {
-      const int region = skin_region(x, y);
-      if (region < 1 || region > kSkinRegionCount || clipped(x, y) != 0) continue;
+      const auto region = static_cast<Region>(skin_region(x, y));
+      if (!is_skin(region) || clipped(x, y) != 0) continue;
       const float* rgb = diffuse.pixel(x, y);
-      regions[static_cast<std::size_t>(region - 1)].add(rgb);
-      const bool own_colour = region == static_cast<int>(Region::kLips) || region == static_cast<int>(Region::kBrows);
-      if (!own_colour) all.add(rgb);
+      regions[static_cast<std::size_t>(region) - 1].add(rgb);
+      if (is_probe_skin(region)) all.add(rgb);  // lips and brows have colours of their own
     }
   }
   AlbedoModel model;
@@ -157,10 +156,9 @@ Image albedo_picture(const AlbedoModel& model, const ByteImage& skin_region) {
   Image albedo(skin_region.width(), skin_region.height(), 3);
   for (int y = 0; y < albedo.height(); ++y) {
     for (int x = 0; x < albedo.width(); ++x) {
-      const int region = skin_region(x, y);
-      const bool skin = region >= 1 && region <= kSkinRegionCount;
+      const auto region = static_cast<Region>(skin_region(x, y));
       Eigen::Map<Eigen::Vector3f>(albedo.pixel(x, y)) =
-          skin ? model.region_albedo[static_cast<std::size_t>(region - 1)] : elsewhere;
+          is_skin(region) ? model.region_albedo[static_cast<std::size_t>(region) - 1] : elsewhere;
     }
   }
   const int radius = std::max(1, std::max(albedo.width(), albedo.height()) / 100);

@@ -75,10 +75,8 @@ struct Patch {
 
 ByteImage skin_regions(const ByteImage& region) {
   ByteImage skin(region.width(), region.height(), 1);
-  std::transform(region.values().begin(), region.values().end(), skin.values().begin(), [](std::uint8_t r) {
-    // The ten skin regions count from 1.
-    return r <= kSkinRegionCount ? r : std::uint8_t{0};
-  });
+  std::transform(region.values().begin(), region.values().end(), skin.values().begin(),
+                 [](std::uint8_t r) { return is_skin(static_cast<Region>(r)) ? r : std::uint8_t{0}; });
   return skin;
 }
 
@@ -100,7 +98,7 @@ lighting::Observations observe(const face::FaceGeometry& geometry, const Image& 
       Patch& patch =
           grid[static_cast<std::size_t>(y / side) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x / side)];
       const auto region = static_cast<Region>(geometry.region(x, y));
-      const SkinReflectance skin_here = skin_reflectance(static_cast<Region>(geometry.region(x, y)));
+      const SkinReflectance skin_here = skin_reflectance(region);
       patch.normal += Eigen::Map<const Eigen::Vector3f>(geometry.normal_cam.pixel(x, y));
       patch.view += Eigen::Map<const Eigen::Vector3f>(geometry.view_cam.pixel(x, y));
       patch.highlight += Eigen::Map<const Eigen::Vector3f>(highlight.pixel(x, y));

@@ -27,7 +27,7 @@ Image divide(const Image& diffuse, const Image& albedo, const ByteImage& skin) {
 // What turned out to be no skin has no highlights.
 void keep_on_skin(const ByteImage& region, highlight::Layers& layers) {
   for (std::size_t i = 0; i < region.pixel_count(); ++i) {
-    if (region.data()[i] >= 1 && region.data()[i] <= kSkinRegionCount) continue;
+    if (is_skin(static_cast<Region>(region.data()[i]))) continue;
     for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) {
       layers.diffuse.data()[c] += layers.highlight.data()[c];
       layers.highlight.data()[c] = 0;

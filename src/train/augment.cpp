@@ -98,7 +98,7 @@ void put_mesh(const synth::ShardReader& reader, int number, TrainingPicture& pic
   bool found = false;
   for (std::size_t i = 0; i < mesh.region.pixel_count(); ++i) {
     const std::uint8_t region = mesh.region.data()[i];
-    picture.mask.data()[i] = region >= 1 && region <= kSkinRegionCount ? 1 : 0;
+    picture.mask.data()[i] = is_skin(static_cast<Region>(region)) ? 1 : 0;
     found = found || region != 0;
   }
   if (!found) std::fill(picture.mask.values().begin(), picture.mask.values().end(), std::uint8_t{1});

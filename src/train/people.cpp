@@ -125,8 +125,7 @@ class Reader {
     const ByteImage& regions = surface.region;
     out.mask = ByteImage(crop.width, crop.height, 1);
     for (std::size_t i = 0; i < regions.pixel_count(); ++i) {
-      const std::uint8_t region = regions.data()[i];
-      out.mask.data()[i] = region > 0 && region <= kSkinRegionCount ? 1 : 0;
+      out.mask.data()[i] = is_skin(static_cast<Region>(regions.data()[i])) ? 1 : 0;
     }
     out.mesh = std::move(surface.normal_cam);
     WarpLandmarks landmarks{face.landmarks_px.leftCols<2>(), face.landmarks_px.col(2) * static_cast<float>(crop.scale)};

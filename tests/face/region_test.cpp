@@ -108,5 +108,18 @@ TEST(Region, NamesAndColoursAreDistinct) {
   EXPECT_EQ(probe, 8);
 }
 
+// Pictures of regions come from files too: what is no region is no skin either.
+TEST(Region, SkinIsTheTenRegionsAndNothingElse) {
+  int skin = 0;
+  for (int byte = 0; byte < 256; ++byte) {
+    const auto region = static_cast<Region>(byte);
+    skin += is_skin(region) ? 1 : 0;
+    EXPECT_TRUE(is_skin(region) || !is_probe_skin(region)) << byte;
+  }
+  EXPECT_EQ(skin, kSkinRegionCount);
+  EXPECT_TRUE(is_skin(Region::kLips) && is_skin(Region::kOther));
+  EXPECT_FALSE(is_skin(Region::kNone) || is_skin(Region::kEyes));
+}
+
 }  // namespace
 }  // namespace faceprobe::face

@@ -47,7 +47,7 @@ Microfacet skin_at(const face::FaceGeometry& geometry, int x, int y) {
 }
 
 bool is_skin(const face::FaceGeometry& geometry, int x, int y) {
-  return geometry.region(x, y) >= 1 && geometry.region(x, y) <= kSkinRegionCount;
+  return faceprobe::is_skin(static_cast<Region>(geometry.region(x, y)));
 }
 
 }  // namespace

@@ -35,7 +35,11 @@ inline constexpr int kSkinRegionCount = 10;
 
 std::string_view region_name(Region region);               // "forehead", ...
 std::array<std::uint8_t, 3> region_colour(Region region);  // sRGB, for pictures
+// One of the ten skin regions. False for bytes that are no region.
+constexpr bool is_skin(Region region) { return region >= Region::kForehead && region <= Region::kOther; }
 // Skin whose highlights can be used: the ten regions without lips and brows.
-bool is_probe_skin(Region region);
+constexpr bool is_probe_skin(Region region) {
+  return is_skin(region) && region != Region::kLips && region != Region::kBrows;
+}
 
 }  // namespace faceprobe
