@@ -34,7 +34,8 @@ Image on_skin(const pipeline::FaceEstimate& face, const Image& layer) {
   Image out(layer.width(), layer.height(), layer.channels());
   for (int y = 0; y < layer.height(); ++y) {
     for (int x = 0; x < layer.width(); ++x) {
-      if (is_skin(static_cast<Region>(face.geometry.region(x, y)))) std::copy_n(layer.pixel(x, y), layer.channels(), out.pixel(x, y));
+      if (is_skin(static_cast<Region>(face.geometry.region(x, y))))
+        std::copy_n(layer.pixel(x, y), layer.channels(), out.pixel(x, y));
     }
   }
   return out;

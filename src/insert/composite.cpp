@@ -7,10 +7,7 @@ namespace {
 
 // Depth along -z where the ray through a pixel's centre meets the ground's plane; 0 where it does not.
 float ground_depth(const render::PinholeView& view, const render::Ground& ground, int x, int y) {
-  const Eigen::Vector3f ray(
-      (static_cast<float>(x) + 0.5F - static_cast<float>(view.centre_x_px)) / static_cast<float>(view.focal_px),
-      (static_cast<float>(view.centre_y_px) - static_cast<float>(y) - 0.5F) / static_cast<float>(view.focal_px), -1);
-  const float fall = ray.dot(ground.up);
+  const float fall = view.ray(x + 0.5, y + 0.5).dot(ground.up);
   return fall == 0 ? 0 : std::max(0.0F, ground.point.dot(ground.up) / fall);
 }
 

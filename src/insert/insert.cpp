@@ -46,14 +46,14 @@ render::Ground ground_under(const Scene& scene) {
   return ground;
 }
 
-// The photo's colour over the light that falls there: what makes the ground look as it does. The photo is taken about the model's foot.
-Eigen::Vector3f albedo_from_photo(const Image& photo, const Scene& scene, const render::Ground& ground) {
-  const std::optional<PixelBox> near = box_in_view(scene.view, scene.model.box());
-  if (!near) return Eigen::Vector3f::Constant(0.3F);
+// The photo's colour over the light that falls there: what makes the ground look as it does. The photo is taken about the model's foot; `box`:
+// where the model is seen.
+Eigen::Vector3f albedo_from_photo(const Image& photo, const PixelBox& box, const Scene& scene,
+                                  const render::Ground& ground) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   int count = 0;
-  for (int y = near->top + 3 * near->height() / 4; y < near->bottom; ++y) {
-    for (int x = near->left; x < near->right; ++x, ++count)
+  for (int y = box.top + 3 * box.height() / 4; y < box.bottom; ++y) {
+    for (int x = box.left; x < box.right; ++x, ++count)
       sum += Eigen::Map<const Eigen::Vector3f>(photo.pixel(x, y)).cast<double>();
   }
   const Eigen::Vector3f light = render::open_light(scene.environment, scene.lamps, ground.point, ground.up);
@@ -138,7 +138,8 @@ Insertion insert_model(const Image& photo, const Scene& scene, const Options& op
   }
   if (scene.matte && !(scene.matte->cover.same_size(photo) && scene.matte->depth_m.same_size(photo)))
     throw std::invalid_argument("The matte must have the photo's size.");
-  if (!box_in_view(scene.view, scene.model.box()))
+  const std::optional<PixelBox> model_box = box_in_view(scene.view, scene.model.box());
+  if (!model_box)
     throw Error(ExitCode::kUsage,
                 "No part of the object would be in the picture; place it elsewhere, or make it larger.");
 
@@ -146,11 +147,12 @@ Insertion insert_model(const Image& photo, const Scene& scene, const Options& op
   render::SceneOptions drawn;
   if (scene.ground) {
     drawn.ground = ground_under(scene);
-    done.ground_albedo = scene.ground_albedo.value_or(albedo_from_photo(photo, scene, *drawn.ground));
+    done.ground_albedo =
+        scene.ground_albedo ? *scene.ground_albedo : albedo_from_photo(photo, *model_box, scene, *drawn.ground);
     drawn.ground->albedo = done.ground_albedo;
   }
   if (options.match_blur) done.blur_px = blur_to_match(estimate_blur_px(photo), kRenderedBlurPx);
-  done.box = *box_in_view(scene.view, scene.ground ? with_ground(scene.model.box(), *drawn.ground) : scene.model.box());
+  done.box = scene.ground ? *box_in_view(scene.view, with_ground(scene.model.box(), *drawn.ground)) : *model_box;
   done.box = wider(done.box, static_cast<int>(std::ceil(kBlurReach * done.blur_px)), scene.view);
   drawn.view = part_of(scene.view, done.box);
   drawn.lamps = scene.lamps;

@@ -21,9 +21,7 @@ Eigen::Vector3f up_from_heads(const std::vector<Eigen::Vector3f>& heads) {
 }
 
 Eigen::Vector3f point_at(const render::PinholeView& view, double x_px, double y_px, float depth_m) {
-  return depth_m *
-         Eigen::Vector3d((x_px - view.centre_x_px) / view.focal_px, (view.centre_y_px - y_px) / view.focal_px, -1)
-             .cast<float>();
+  return depth_m * view.ray(x_px, y_px);
 }
 
 }  // namespace faceprobe::insert

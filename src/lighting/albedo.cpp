@@ -68,8 +68,7 @@ RegionSamples samples_of(const Image& diffuse, const ByteImage& skin_region, con
   for (std::size_t i = 0; i < skin_region.pixel_count(); ++i) {
     const auto region = static_cast<Region>(skin_region.data()[i]);
     const Eigen::Map<const Eigen::Vector3f> normal(normal_cam.data() + 3 * i);
-    if (is_skin(region) && clipped.data()[i] == 0 && normal.norm() > 0.5F)
-      places.push_back(i);
+    if (is_skin(region) && clipped.data()[i] == 0 && normal.norm() > 0.5F) places.push_back(i);
   }
   const std::size_t step = places.size() / kMostSamples + 1;
   RegionSamples samples;

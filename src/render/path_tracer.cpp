@@ -79,7 +79,7 @@ struct PathTracer::State {
   RayScene rays;
 };
 
-PathTracer::PathTracer(Model model, EnvMap environment, SceneOptions options) {
+PathTracer::PathTracer(Model model, const EnvMap& environment, SceneOptions options) {
   refuse(options.validate());
   refuse(model.validate());
   if (environment.width() == 0) throw std::invalid_argument("A scene needs an environment map.");
@@ -134,6 +134,7 @@ Eigen::Vector3f open_light(const EnvMap& environment, const std::vector<BallLamp
   for (const BallLamp& lamp : lamps) {
     const Eigen::Vector3f way = lamp.position - point;
     const float distance = way.norm();
+    if (distance <= lamp.radius_m) continue;
     sum += (std::max(0.0F, normal.dot(way)) / (distance * distance * distance) * lamp.intensity).cast<double>();
   }
   return (sum / kPi).cast<float>();

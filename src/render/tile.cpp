@@ -52,12 +52,6 @@ struct PixelSum {
   }
 };
 
-Eigen::Vector3f direction_through(const PinholeView& view, float x, float y) {
-  return Eigen::Vector3f((x - static_cast<float>(view.centre_x_px)) / static_cast<float>(view.focal_px),
-                         (static_cast<float>(view.centre_y_px) - y) / static_cast<float>(view.focal_px), -1)
-      .normalized();
-}
-
 void write(const PixelSum& sum, float samples, int x, int y, Layers& out) {
   out.samples(x, y) = samples;
   const float coverage = sum.on_model / samples;
@@ -98,9 +92,8 @@ void render_tile(const PathScene& scene, const RenderOptions& options, int tile_
         for (int s = taken; s < taken + pass; ++s) {
           SobolSampler random(key, static_cast<std::uint32_t>(s));
           const Eigen::Vector2f place = random.pair();
-          const PathSample sample = trace_path(
-              scene, direction_through(view, static_cast<float>(x) + place.x(), static_cast<float>(y) + place.y()),
-              random);
+          const Eigen::Vector3f ray = view.ray(x + static_cast<double>(place.x()), y + static_cast<double>(place.y()));
+          const PathSample sample = trace_path(scene, ray.normalized(), random);
           sum.add(sample);
           seen = seen || sample.first != PathSample::First::kNothing;
         }

@@ -139,6 +139,19 @@ TEST(OpenLight, EvenSkyGivesItsRadiance) {
     EXPECT_NEAR(open_light(even_map(0.6F), {}, {0, 0, 0}, normal).y(), 0.6F, 0.02F * 0.6F);  // 8 rows of texels
 }
 
+TEST(OpenLight, ALampAroundThePointGivesNothing) {
+  const BallLamp around{.position = {0, 0.05F, 0}, .radius_m = 0.1F};
+  for (const float y : {0.0F, 0.05F})  // in it, and at its centre, which has no direction
+    EXPECT_EQ(open_light(EnvMap(8, 4), {around}, {0, y, 0}, Eigen::Vector3f::UnitY()), Eigen::Vector3f::Zero()) << y;
+}
+
+TEST(PinholeView, RaysGoRightAndUpWithThePhoto) {
+  const PinholeView view{.focal_px = 200, .centre_x_px = 30, .centre_y_px = 20, .width_px = 64, .height_px = 48};
+  EXPECT_EQ(view.ray(30, 20), Eigen::Vector3f(0, 0, -1));
+  EXPECT_EQ(view.ray(130, 20), Eigen::Vector3f(0.5F, 0, -1));
+  EXPECT_EQ(view.ray(30, -80), Eigen::Vector3f(0, 0.5F, -1));
+}
+
 TEST(PathTracer, LampIsSeenInAMirrorAsBrightAsItIs) {
   const BallLamp lamp{.position = {0, 0, 1.5F}, .radius_m = 0.8F, .intensity = Eigen::Vector3f::Ones()};
   const PathTracer tracer(ball({.kind = MaterialKind::kMetal, .colour = Eigen::Vector3f::Ones()}), even_map(0.1F),

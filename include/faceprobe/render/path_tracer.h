@@ -29,6 +29,11 @@ struct PinholeView {
   double focal_px = 0;
   double centre_x_px = 0, centre_y_px = 0;  // the principal point, from the top left corner
   int width_px = 0, height_px = 0;
+
+  // Where the ray through (x, y) px is at depth 1, camera frame: (.., .., -1), not of unit length.
+  Eigen::Vector3f ray(double x_px, double y_px) const {
+    return Eigen::Vector3d((x_px - centre_x_px) / focal_px, (centre_y_px - y_px) / focal_px, -1).cast<float>();
+  }
 };
 
 // A diffuse disc that the thing stands on.
@@ -92,7 +97,7 @@ struct Layers {
 class PathTracer {
  public:
   // Throws std::invalid_argument when model or options do not validate, or the map is empty or holds what is negative or not finite.
-  PathTracer(Model model, EnvMap environment, SceneOptions options);
+  PathTracer(Model model, const EnvMap& environment, SceneOptions options);
   ~PathTracer();
   PathTracer(PathTracer&&) noexcept;
   PathTracer& operator=(PathTracer&&) noexcept;
@@ -108,7 +113,7 @@ class PathTracer {
 };
 
 // What a white diffuse surface sends out with nothing around it: irradiance / pi from the map and the lamps, without noise. `point`: metres;
-// `normal`: unit. Red, green, blue, in the unit of the map.
+// `normal`: unit. Red, green, blue, in the unit of the map. A lamp that the point lies in gives nothing, as in PathTracer.
 Eigen::Vector3f open_light(const EnvMap& environment, const std::vector<BallLamp>& lamps, const Eigen::Vector3f& point,
                            const Eigen::Vector3f& normal);
 
