@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <vector>
 
 namespace faceprobe::pipeline {
@@ -57,6 +58,19 @@ bool usable(const face::FaceGeometry& geometry, const ByteImage& flags, int x, i
   return normal.dot(view) > kLeastCosine;
 }
 
+void check(const face::FaceGeometry& geometry, const Image& highlight, const Image& shading, const ByteImage& flags,
+           int max_patches) {
+  const auto fits = [&](const auto& picture, int channels) {
+    return picture.same_size(geometry.region) && picture.channels() == channels;
+  };
+  const bool has_error = !geometry.normal_error_rad.empty();
+  if (!fits(geometry.normal_cam, 3) || !fits(geometry.position_cam_m, 3) || !fits(geometry.view_cam, 3) ||
+      !fits(highlight, 3) || !fits(shading, 3) || !fits(flags, 1) || (has_error && !fits(geometry.normal_error_rad, 1)))
+    throw std::invalid_argument(
+        "Observations need layers, flags and geometry of one size: three channels each, and one of flags and errors.");
+  if (max_patches < 1) throw std::invalid_argument("Observations need at least one patch to fill.");
+}
+
 struct Patch {
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();
   Eigen::Vector3f view = Eigen::Vector3f::Zero();
@@ -82,6 +96,7 @@ ByteImage skin_regions(const ByteImage& region) {
 
 lighting::Observations observe(const face::FaceGeometry& geometry, const Image& highlight, const Image& shading,
                                const ByteImage& flags, int max_patches, int threads) {
+  check(geometry, highlight, shading, flags, max_patches);
   const int width = geometry.region.width();
   const int height = geometry.region.height();
   int skin = 0;

@@ -55,10 +55,6 @@ lighting::Observations rows_of(const SmallFace& small, int threads) {
     rows.specular_albedo[i] = skin.specular_albedo;
     centres.row(i) = at.transpose();
   }
-  rows.highlight.setZero();
-  rows.shading.setZero();
-  rows.clipped.setConstant(false);
-  rows.weight.setOnes();
   rows.horizon = lighting::horizon_tangents(small.position, centres, threads);
   return rows;
 }
@@ -152,6 +148,7 @@ std::string RelightOptions::validate() const {
 
 void relight(Image& photo, const FaceEstimate& face, const Eigen::MatrixX3f& radiance, const RelightOptions& options) {
   if (const std::string fault = options.validate(); !fault.empty()) throw std::invalid_argument(fault);
+  if (photo.channels() != 3) throw std::invalid_argument("A photo to relight needs three channels.");
   if (radiance.rows() != face.light.radiance.rows())
     throw std::invalid_argument("A new light needs one radiance per cell of the old one.");
   const face::Crop& crop = face.geometry.crop;

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 namespace faceprobe::pipeline {
 namespace {
@@ -179,6 +180,21 @@ TEST(Observe, ClippedTransparentAndAvertedPixels) {
   EXPECT_LT(some.count(), all.count());
   EXPECT_TRUE(some.clipped.col(0).all());
   EXPECT_FALSE(some.clipped.col(1).any());
+}
+
+TEST(Observe, PicturesThatDoNotFitAreRefused) {
+  const PosedFace posed = posed_face(0);
+  const LitFace lit = light_up(posed, {}, 1.0F);
+  const ByteImage flags = no_flags(posed);
+  const Image narrow(posed.geometry.region.width() - 1, posed.geometry.region.height(), 3);
+  const Image grey(posed.geometry.region.width(), posed.geometry.region.height(), 1);
+  EXPECT_THROW(observe(posed.geometry, narrow, lit.shading, flags, 100, 1), std::invalid_argument);
+  EXPECT_THROW(observe(posed.geometry, lit.highlight, grey, flags, 100, 1), std::invalid_argument);
+  EXPECT_THROW(observe(posed.geometry, lit.highlight, lit.shading, {}, 100, 1), std::invalid_argument);
+  EXPECT_THROW(observe(posed.geometry, lit.highlight, lit.shading, flags, 0, 1), std::invalid_argument);
+  face::FaceGeometry short_of_depth = posed.geometry;
+  short_of_depth.position_cam_m = Image();
+  EXPECT_THROW(observe(short_of_depth, lit.highlight, lit.shading, flags, 100, 1), std::invalid_argument);
 }
 
 }  // namespace

@@ -150,6 +150,8 @@ TEST_F(Relight, RefusesWhatDoesNotFit) {
   Image picture = photo;
   EXPECT_THROW(relight(picture, face, Eigen::MatrixX3f::Ones(12, 3)), std::invalid_argument);
   EXPECT_THROW(relight(picture, face, face.light.radiance, {.shading_px = 2}), std::invalid_argument);
+  Image grey(photo.width(), photo.height(), 1);
+  EXPECT_THROW(relight(grey, face, face.light.radiance), std::invalid_argument);
 }
 
 }  // namespace

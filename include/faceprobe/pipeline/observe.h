@@ -10,7 +10,7 @@
 namespace faceprobe::pipeline {
 
 // `highlight` and `shading`: crop x 3; `flags`: io::Photo bits in the crop. At most about `max_patches` rows, horizons
-// included; none where no skin can be used. All pictures are of one size, which is not checked.
+// included; none where no skin can be used. Throws std::invalid_argument for pictures of other sizes or channels and for no patches.
 lighting::Observations observe(const face::FaceGeometry& geometry, const Image& highlight, const Image& shading,
                                const ByteImage& flags, int max_patches, int threads);
 

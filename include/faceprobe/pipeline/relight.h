@@ -46,8 +46,8 @@ struct LightChange {
 // A face's light so changed, on the cells of its own. `options`: those of the estimate. Throws Error(kInput) for a map without light.
 Eigen::MatrixX3f changed_light(const FaceEstimate& face, const LightChange& change, const EstimateOptions& options);
 
-// Changes the face in `photo`, the estimate's picture at its own size, linear. `radiance`: cells of a SphereGrid x 3, in the unit of
-// face.light.radiance, and as many. Throws std::invalid_argument for other sizes and options that do not validate.
+// Changes the face in `photo`, the estimate's picture at its own size, linear, three channels. `radiance`: cells of a SphereGrid x 3, in the
+// unit of face.light.radiance, and as many. Throws std::invalid_argument for other channels or cells and for options that do not validate.
 void relight(Image& photo, const FaceEstimate& face, const Eigen::MatrixX3f& radiance,
              const RelightOptions& options = {});
 
