@@ -4,6 +4,7 @@
 #include "faceprobe/core/region.h"
 #include "faceprobe/core/sh.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace faceprobe::pipeline {
@@ -45,9 +46,10 @@ LightResult light_result(lighting::Light light, const EstimateOptions& options) 
   const Eigen::MatrixX3f confidence = light.confidence.replicate(1, 3);
   result.confidence = env_map_from_grid(confidence, grid, options.map_width, options.map_width / 2);
   for (float& value : result.confidence.radiance().values()) value = std::min(1.0F, value);
-  const EnvMap small = resize(result.environment, 128, 64);
-  result.sh = sh::project(small, options.sh_order);
-  result.sh4 = sh::project(small, 4);
+  constexpr int kOrder = 4;
+  const Eigen::MatrixX3d sh = sh::project(resize(result.environment, 128, 64), std::max(kOrder, options.sh_order));
+  result.sh = sh.topRows(sh::coefficient_count(options.sh_order));
+  result.sh4 = sh.topRows(sh::coefficient_count(kOrder));
   result.lights = lighting::main_lights(light.radiance, grid, options.main_lights, light.confidence);
   if (light.compact) lighting::set_true_size(*light.compact, result.lights);
   result.light = std::move(light);
