@@ -139,8 +139,8 @@ Estimate Estimator::estimate(const io::Photo& photo, const StageDone& stage_done
     FaceEstimate estimate = impl_->analyse(photo, out.camera, std::move(face), watch);
     if (!impl_->options.classical && !estimate.enough_shown) {
       out.warnings.emplace_back(
-          "The photo cuts off more than a third of a face; its highlights come from a classical separator, because the "
-          "network needs more of a head.");
+          "The photo cuts off too much of a face; its highlights come from a classical separator, because the network "
+          "needs more of a head.");
     }
     if (estimate.observations.count() < 30) {
       out.warnings.push_back("A face " + std::to_string(static_cast<int>(estimate.face.box.width)) +

@@ -1,7 +1,6 @@
 #pragma once
 // What an Estimator holds: the options, the networks and the mesh.
 
-#include "faceprobe/core/error.h"
 #include "faceprobe/net/light_prior.h"
 #include "faceprobe/pipeline/estimate.h"
 #include "pipeline/face_reader.h"
@@ -24,8 +23,5 @@ struct Estimator::Impl {
   FaceReader reader;
   std::optional<net::LightPrior> prior;
 };
-
-// The sentence for a photo without a face.
-Error no_face(const io::Photo& photo, const EstimateOptions& options);
 
 }  // namespace faceprobe::pipeline

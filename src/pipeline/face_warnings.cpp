@@ -2,6 +2,13 @@
 
 namespace faceprobe::pipeline {
 
+Error no_face(const io::Photo& photo, const EstimateOptions& options) {
+  return {ExitCode::kNoFace, "No face was found in this picture of " + std::to_string(photo.linear.width()) + " x " +
+                                 std::to_string(photo.linear.height()) + " px; faces are looked for from " +
+                                 std::to_string(options.finder.min_face_px) +
+                                 " px. If there is one, give its landmarks."};
+}
+
 std::optional<std::string> no_highlights_warning(const FaceEstimate& face, lighting::Solver solver) {
   if (lighting::shows_highlights(face.observations)) return std::nullopt;
   const std::string who =

@@ -12,7 +12,7 @@
 namespace faceprobe::pipeline {
 namespace {
 
-constexpr int kMostLights = 5;
+constexpr int kMostLights = lighting::MainLightOptions{}.max_lights;
 
 // Of the main lights in their order. Throws std::out_of_range for lights that do not validate.
 std::vector<double> shares_of(const std::vector<DimmedLight>& dim) {
@@ -30,7 +30,8 @@ std::string LightChange::validate() const {
   for (auto dimmed = dim.begin(); dimmed != dim.end(); ++dimmed) {
     const std::string number = std::to_string(dimmed->light);
     if (dimmed->light < 1 || dimmed->light > kMostLights)
-      return "Lights to dim are numbered from 1, the strongest, to 5; found " + number + ".";
+      return "Lights to dim are numbered from 1, the strongest, to " + std::to_string(kMostLights) + "; found " +
+             number + ".";
     if (!(dimmed->share > 0 && dimmed->share <= 1))
       return "The share of light " + number + " that goes must be above 0 and at most 1, found " +
              std::to_string(dimmed->share) + ".";

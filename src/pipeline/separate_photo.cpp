@@ -1,6 +1,7 @@
 #include "faceprobe/pipeline/observe.h"
 #include "pipeline/camera_of.h"
 #include "pipeline/estimator_impl.h"
+#include "pipeline/face_warnings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,13 +31,6 @@ BasicImage<T> cut(const BasicImage<T>& photo, int left, int top, const face::Cro
 }
 
 }  // namespace
-
-Error no_face(const io::Photo& photo, const EstimateOptions& options) {
-  return {ExitCode::kNoFace, "No face was found in this picture of " + std::to_string(photo.linear.width()) + " x " +
-                                 std::to_string(photo.linear.height()) + " px; faces are looked for from " +
-                                 std::to_string(options.finder.min_face_px) +
-                                 " px. If there is one, give its landmarks."};
-}
 
 highlight::Layers Estimator::separate(const io::Photo& photo) const {
   const face::Camera camera = camera_of(photo, impl_->options).camera;
