@@ -13,7 +13,6 @@ namespace faceprobe::lighting {
 
 namespace {
 
-constexpr float kNothingBlocks = -1e6F;
 // Steps start far enough out that a patch is not shadowed by the roundness of its own neighbourhood.
 constexpr double kFirstStep = 3.0;
 constexpr double kStepGrowth = 1.15;

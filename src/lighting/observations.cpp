@@ -13,8 +13,9 @@ void Observations::resize(Eigen::Index patches) {
   highlight.setZero(patches, 3);
   shading.setZero(patches, 3);
   clipped.setConstant(patches, 3, false);
-  roughness.setConstant(patches, 0.3F);
-  specular_albedo.setConstant(patches, 0.18F);
+  constexpr Microfacet kSkin;
+  roughness.setConstant(patches, kSkin.roughness);
+  specular_albedo.setConstant(patches, kSkin.specular_albedo);
   weight.setOnes(patches);
   horizon.resize(0, kHorizonAzimuths);
   grey = false;
@@ -57,8 +58,7 @@ Observations concatenate(const std::vector<Observations>& sets) {
   Observations all;
   all.resize(total);
   all.grey = !sets.empty() && std::ranges::all_of(sets, [](const Observations& set) { return set.grey; });
-  // A tangent of minus infinity lets everything pass; a large finite number keeps arithmetic on it finite.
-  if (any_horizon) all.horizon.setConstant(total, kHorizonAzimuths, -1e6F);
+  if (any_horizon) all.horizon.setConstant(total, kHorizonAzimuths, kNothingBlocks);
   Eigen::Index at = 0;
   for (const Observations& set : sets) {
     const Eigen::Index n = set.count();

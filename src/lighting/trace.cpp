@@ -1,6 +1,7 @@
 #include "faceprobe/lighting/trace.h"
 
 #include "faceprobe/core/angles.h"
+#include "faceprobe/core/microfacet.h"
 
 #include <cmath>
 #include <nanoflann.hpp>
@@ -13,8 +14,9 @@ TracedMap trace_highlights(const Observations& observations, const Eigen::Matrix
   if (highlight.rows() != observations.count()) throw std::invalid_argument("One highlight per observation is needed.");
   TracedMap traced;
   traced.value.setZero(grid.cell_count(), 3);
-  traced.roughness.setConstant(grid.cell_count(), 0.3F);
-  traced.specular_albedo.setConstant(grid.cell_count(), 0.18F);
+  constexpr Microfacet kSkin;
+  traced.roughness.setConstant(grid.cell_count(), kSkin.roughness);
+  traced.specular_albedo.setConstant(grid.cell_count(), kSkin.specular_albedo);
   traced.weight.setZero(grid.cell_count());
   if (observations.count() == 0) return traced;
 

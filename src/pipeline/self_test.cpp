@@ -50,12 +50,6 @@ lighting::Observations half_ball() {
   for (std::size_t i = 0; i < seen.size(); ++i)
     ball.normal.row(static_cast<Eigen::Index>(i)) = grid.directions().row(seen[i]);
   ball.view.rowwise() = Eigen::RowVector3f::UnitZ();
-  ball.highlight.setZero();
-  ball.shading.setZero();
-  ball.clipped.setConstant(false);
-  ball.roughness.setConstant(0.3F);
-  ball.specular_albedo.setConstant(0.18F);
-  ball.weight.setOnes();
   return ball;
 }
 

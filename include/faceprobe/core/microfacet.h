@@ -15,6 +15,7 @@ namespace faceprobe {
 // Normal-incidence reflectance of skin, index of refraction 1.4.
 inline constexpr float kSkinF0 = 0.028F;
 
+// As average skin has it, unless told otherwise.
 struct Microfacet {
   float roughness = 0.3F;         // m, rms slope
   float specular_albedo = 0.18F;  // rho_s

@@ -18,6 +18,8 @@ namespace faceprobe::lighting {
 
 // Azimuths, counter-clockwise in the image plane from +x, at which a patch's horizon is stored.
 inline constexpr int kHorizonAzimuths = 32;
+// A horizon's tangent where nothing blocks: below every light, and finite, so that sums with it are.
+inline constexpr float kNothingBlocks = -1e6F;
 
 struct Observations {
   Eigen::MatrixX3f normal;     // #patches x 3, unit
