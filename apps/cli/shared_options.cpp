@@ -1,6 +1,7 @@
 #include "shared_options.h"
 
 #include "faceprobe/core/error.h"
+#include "faceprobe/io/picture_file.h"
 #ifdef FACEPROBE_HAS_SYNTH
 #include "one_head.h"
 #endif
@@ -223,15 +224,13 @@ pipeline::EstimateOptions estimate_options(const SharedOptions& options) {
 }
 
 bool is_picture_output(const std::string& output) {
-  std::string extension = std::filesystem::path(output).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  const std::string extension = CLI::detail::to_lower(std::filesystem::path(output).extension().string());
   for (const char* other : {".jpg", ".jpeg", ".tif", ".tiff", ".webp", ".heic", ".bmp", ".gif"}) {
     if (extension == other)
       throw Error(ExitCode::kUsage, "Pictures are written as .png, .exr or .hdr, found -o " + output +
                                         "; name one of these, or a folder.");
   }
-  return extension == ".png" || extension == ".exr" || extension == ".hdr";
+  return io::is_picture_file(output);
 }
 
 std::string folder_for(const std::string& output, const SharedOptions& options, std::size_t input) {

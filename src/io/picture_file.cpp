@@ -125,6 +125,11 @@ ByteImage encode_with_alpha(const Image& image) {
 
 }  // namespace
 
+bool is_picture_file(const std::filesystem::path& path) {
+  const std::string extension = extension_of(path);
+  return extension == ".exr" || extension == ".hdr" || extension == ".png";
+}
+
 void write_picture(const std::filesystem::path& path, const Image& image, const Attributes& attributes, bool half_float) {
   require_channels(path, image.channels(), false);
   const std::string extension = extension_of(path);

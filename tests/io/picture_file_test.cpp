@@ -219,5 +219,11 @@ TEST(PictureFile, WrongUseIsSaid) {
   EXPECT_TRUE(fs::exists(folder / "x.png"));
 }
 
+TEST(PictureFile, NamesThatPicturesAreWrittenTo) {
+  for (const char* name : {"a.png", "a.EXR", "folder.jpg/a.Hdr"}) EXPECT_TRUE(is_picture_file(name)) << name;
+  for (const char* name : {"", "a", "png", "a.jpg", "a.png/", "a.exr.zip", "folder.png/a"})
+    EXPECT_FALSE(is_picture_file(name)) << name;
+}
+
 }  // namespace
 }  // namespace faceprobe::io

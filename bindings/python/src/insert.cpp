@@ -107,16 +107,9 @@ InsertedPtr insert_into(const py::object& photo, const std::filesystem::path& ob
   return out;
 }
 
-bool is_picture_file(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-  return extension == ".png" || extension == ".exr" || extension == ".hdr";
-}
-
 std::vector<std::filesystem::path> save(const Inserted& inserted, const std::filesystem::path& path) {
   const py::gil_scoped_release release;
-  if (!is_picture_file(path))
+  if (!io::is_picture_file(path))
     return pipeline::write_insertion(path, inserted.done, inserted.scene, inserted.photo, inserted.object);
   io::write_picture(path, inserted.done.picture);
   return {path};

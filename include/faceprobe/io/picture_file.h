@@ -20,6 +20,9 @@ namespace faceprobe::io {
 // Text attributes for files that can carry them (EXR, PNG): provenance such as {"faceprobe:version", "0.1.0"}.
 using Attributes = std::map<std::string, std::string>;
 
+// Whether pictures are written to such a name: .exr, .hdr or .png, in capitals or not.
+bool is_picture_file(const std::filesystem::path& path);
+
 // `image` is linear, 1, 3 or 4 channels. .exr and .hdr keep it as it is (.hdr needs 3 channels and clamps negatives to 0);
 // .png encodes it to sRGB, clipped at 1. half_float = false writes 32-bit EXR.
 void write_picture(const std::filesystem::path& path, const Image& image, const Attributes& attributes = {},
