@@ -132,12 +132,11 @@ class Looker {
     const face::Camera camera = pipeline::camera_of(photo, options_).camera;
     const std::vector<face::Face> faces = finder_.find(photo.linear, camera);
     if (faces.empty()) return std::nullopt;
-    const auto largest =
-        std::ranges::max_element(faces, {}, [](const face::Face& f) { return f.box.width * f.box.height; });
+    const face::Face& largest = face::largest_of(faces);
     face::GeometryOptions geometry_options;
     geometry_options.long_side_px = 256;
-    const face::Crop crop = face::face_crop(*largest, photo.linear.width(), photo.linear.height(), geometry_options);
-    const face::FaceGeometry geometry = face::rasterize(*largest, camera, mesh_, crop);
+    const face::Crop crop = face::face_crop(largest, photo.linear.width(), photo.linear.height(), geometry_options);
+    const face::FaceGeometry geometry = face::rasterize(largest, camera, mesh_, crop);
     Seen seen{face::crop_picture(photo.linear, crop), painted(labelled, crop), {}, geometry.region};
     const pipeline::Reading reading = reader_.read(seen.picture, face::crop_flags(photo.clipped, crop),
                                                    pipeline::skin_regions(geometry.region), geometry, true);

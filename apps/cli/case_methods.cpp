@@ -53,7 +53,7 @@ std::string write_estimate(const pipeline::Estimator& estimator, const eval::Cas
   try {
     const io::Photo photo = io::load_photo(paths.data / "photo.png");
     const pipeline::Estimate estimate = estimator.estimate(photo);
-    io::write_env_map(paths.out / "map.exr", estimate.faces[estimate.largest].environment);
+    io::write_env_map(paths.out / "map.exr", estimate.largest_face().environment);
     io::write_picture(paths.out / "highlight.exr", estimator.separate(photo).highlight);
     return {};
   } catch (const Error& error) {

@@ -2,7 +2,6 @@
 #include "faceprobe/face/geometry.h"
 #include "faceprobe/io/data_files.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace faceprobe::eval {
@@ -18,13 +17,11 @@ GeometryMethod surface_method(std::string name, std::shared_ptr<const face::Face
           [finder = std::move(finder), mesh, fit = std::move(fit)](const PhotoInput& input) -> GeometryEstimate {
             const std::vector<face::Face> found = finder->find(input.linear, input.camera);
             if (found.empty()) return {};
-            const auto largest = std::max_element(found.begin(), found.end(), [](const auto& a, const auto& b) {
-              return a.box.width * a.box.height < b.box.width * b.box.height;
-            });
+            const face::Face& largest = face::largest_of(found);
             const face::Crop whole{
                 .x_px = 0, .y_px = 0, .scale = 1, .width = input.linear.width(), .height = input.linear.height()};
-            face::FaceGeometry geometry = face::rasterize(*largest, input.camera, *mesh, whole);
-            if (fit) fit(*largest, input.camera, geometry);
+            face::FaceGeometry geometry = face::rasterize(largest, input.camera, *mesh, whole);
+            if (fit) fit(largest, input.camera, geometry);
             return {std::move(geometry.normal_cam), {}, std::move(geometry.region)};
           }};
 }

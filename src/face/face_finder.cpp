@@ -44,9 +44,7 @@ float shared_area(const Box& a, const Box& b) {
 // Two readings of one face: boxes that overlap by half, or one box mostly inside the other.
 bool same_face(const Face& a, const Face& b) {
   const float both = shared_area(a.box, b.box);
-  const float area_a = a.box.width * a.box.height;
-  const float area_b = b.box.width * b.box.height;
-  return both > 0.5F * (area_a + area_b - both) || both > 0.7F * std::min(area_a, area_b);
+  return both > 0.5F * (a.box.area() + b.box.area() - both) || both > 0.7F * std::min(a.box.area(), b.box.area());
 }
 
 void check(const Image& linear, const Camera& camera) {
@@ -143,7 +141,7 @@ struct FaceFinder::Impl {
       const auto known = std::ranges::find_if(faces, [&](const Face& other) { return same_face(face, other); });
       if (known == faces.end()) {
         faces.push_back(std::move(face));
-      } else if (face.box.width * face.box.height > 1.5F * known->box.width * known->box.height) {
+      } else if (face.box.area() > 1.5F * known->box.area()) {
         *known = std::move(face);  // a part of a face looked like one
       }
     }
@@ -209,7 +207,7 @@ std::vector<Face> FaceFinder::find(const Image& linear, const Camera& camera) co
   Sampler photo(linear);
   photo.expose();
   std::vector<Face> faces = impl_->search(photo, camera);
-  const auto area = [](const Face& face) { return face.box.width * face.box.height; };
+  const auto area = [](const Face& face) { return face.box.area(); };
   if (faces.size() > static_cast<std::size_t>(impl_->options.max_faces)) {
     std::ranges::stable_sort(faces, std::greater<>{}, area);
     faces.resize(static_cast<std::size_t>(impl_->options.max_faces));

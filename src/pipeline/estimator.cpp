@@ -156,7 +156,7 @@ Estimate Estimator::estimate(const io::Photo& photo, const StageDone& stage_done
     if (!says_so) warning = no_highlights_warning(face, impl_->options.solve.solver);
     if (warning) out.warnings.push_back(*std::move(warning));
   }
-  const auto area = [](const FaceEstimate& f) { return f.face.box.width * f.face.box.height; };
+  const auto area = [](const FaceEstimate& f) { return f.face.box.area(); };
   out.largest =
       static_cast<std::size_t>(std::max_element(out.faces.begin(), out.faces.end(),
                                                 [&](const auto& a, const auto& b) { return area(a) < area(b); }) -

@@ -37,10 +37,8 @@ synth::FoundMesh find_mesh(const synth::ShardReader& faces, const std::vector<in
     const int number = samples[i * samples.size() / tries];
     const std::vector<face::Face> found = finder.find(decode_srgb(faces.copy_light(number).photo), camera);
     if (found.empty()) continue;
-    const auto largest =
-        std::ranges::max_element(found, {}, [](const face::Face& f) { return f.box.width * f.box.height; });
-    face::FaceGeometry geometry =
-        face::rasterize(*largest, camera, mesh, {.x_px = 0, .y_px = 0, .scale = 1, .width = width, .height = height});
+    face::FaceGeometry geometry = face::rasterize(face::largest_of(found), camera, mesh,
+                                                  {.x_px = 0, .y_px = 0, .scale = 1, .width = width, .height = height});
     return {std::move(geometry.normal_cam), std::move(geometry.region)};
   }
   return {Image(width, height, 3), ByteImage(width, height, 1)};

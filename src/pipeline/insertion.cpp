@@ -24,15 +24,13 @@ constexpr float kFarM = 100;    // beside somebody: further away it is beside no
 
 float depth_of(const FaceEstimate& face) { return static_cast<float>(-face.face.position_m().z()); }
 
-const FaceEstimate& largest_face(const Estimate& estimate) { return estimate.faces[estimate.largest]; }
-
 // What the faces' crops show of people: all that is not background.
 insert::Matte matte_of(const Estimate& estimate, const Image& given) {
   insert::Matte matte{Image(estimate.photo_width, estimate.photo_height, 1),
                       Image(estimate.photo_width, estimate.photo_height, 1)};
   if (!given.empty()) {
     matte.cover = given;
-    std::fill(matte.depth_m.values().begin(), matte.depth_m.values().end(), depth_of(largest_face(estimate)));
+    std::fill(matte.depth_m.values().begin(), matte.depth_m.values().end(), depth_of(estimate.largest_face()));
     return matte;
   }
   for (const FaceEstimate& face : estimate.faces) {
@@ -99,8 +97,8 @@ Eigen::Vector3f up_in(const Estimate& estimate, const InsertionOptions& options)
 Spot spot_for(const Estimate& estimate, const render::Model& model, const InsertionOptions& options) {
   const render::PinholeView view = view_of(estimate);
   const FaceEstimate& person =
-      options.face ? estimate.faces.at(static_cast<std::size_t>(*options.face)) : largest_face(estimate);
-  const float depth_unless_told = options.beside_m ? depth_of(person) : kNearer * depth_of(largest_face(estimate));
+      options.face ? estimate.faces.at(static_cast<std::size_t>(*options.face)) : estimate.largest_face();
+  const float depth_unless_told = options.beside_m ? depth_of(person) : kNearer * depth_of(estimate.largest_face());
   const float depth_m = options.depth_m.value_or(depth_unless_told);
   const Eigen::Vector3f size = model.box().sizes();
   const double across_per_height = std::hypot(size.x(), size.z()) / std::max(1e-9F, size.y());
@@ -111,7 +109,7 @@ Spot spot_for(const Estimate& estimate, const render::Model& model, const Insert
   // Its whole width in the picture, however it is turned; and its front, which is nearer than the foot, spreads from the middle.
   const double radius_px = 0.5 * across_per_height * height_m * px_per_m;
   const double front = 1 - std::min(0.5, radius_px / view.focal_px);
-  const face::Box& box = largest_face(estimate).face.box;
+  const face::Box& box = estimate.largest_face().face.box;
   const bool more_room_right = box.x + 0.5F * box.width < 0.5F * static_cast<float>(view.width_px);
   const double edge_px = more_room_right ? (1 - kSideMargin) * view.width_px : kSideMargin * view.width_px;
   Eigen::Vector2d unless_told(

@@ -177,7 +177,7 @@ std::vector<Path> write_outputs(const Path& folder, const Estimate& estimate, co
       io::create_folder(folder / "joint");
       writer.maps(folder / "joint", *estimate.joint, options);
     }
-    writer.maps(folder, estimate.faces[estimate.largest], options);
+    writer.maps(folder, estimate.largest_face(), options);
     if (output.overview) {
       writer.drawing(folder / "overview.png", [&] { return draw_overview(estimate, photo, estimate.largest, 1); });
     }

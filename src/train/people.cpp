@@ -81,9 +81,7 @@ class Reader {
     camera.focal_px = photo.focal_px.value_or(2.0 * std::max(photo.linear.width(), photo.linear.height()));
     const std::vector<face::Face> faces = finder_.find(photo.linear, camera);
     if (faces.empty()) return refused(why, "no face was found");
-    const face::Face& face = *std::max_element(faces.begin(), faces.end(), [](const auto& a, const auto& b) {
-      return a.box.width * a.box.height < b.box.width * b.box.height;
-    });
+    const face::Face& face = face::largest_of(faces);
     if (static_cast<double>(face.box.width) < least_face_px_) {
       return refused(why, "its face is " + std::to_string(static_cast<int>(face.box.width)) + " px wide");
     }

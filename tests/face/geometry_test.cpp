@@ -144,5 +144,15 @@ TEST(Geometry, CropFollowsItsOptions) {
   EXPECT_FALSE(options.validate().empty());
 }
 
+// By area, not by a side; and always the same one of equals.
+TEST(Face, TheLargestHasTheLargestBox) {
+  std::vector<Face> faces(4);
+  faces[0].box = {0, 0, 90, 20};
+  faces[1].box = {100, 0, 50, 60};
+  faces[2].box = {200, 0, 60, 50};
+  faces[3].box = {300, 0, 20, 99};
+  EXPECT_EQ(&largest_of(faces), &faces[1]);
+}
+
 }  // namespace
 }  // namespace faceprobe::face

@@ -28,7 +28,7 @@ double mean_of(const Image& photo, const face::Box& box, float from, float to) {
 class Relight : public ::testing::Test {
  protected:
   const Estimate& estimate = testing::portrait_estimate();
-  const FaceEstimate& face = estimate.faces[estimate.largest];
+  const FaceEstimate& face = estimate.largest_face();
   const Image photo = testing::portrait().linear;
 };
 

@@ -65,7 +65,7 @@ TEST(TracedPhotos, AreWhatAnEstimateReadsAndTheTrueLight) {
   // The whole way through the estimate, whose crop is the finder's own and larger, says nearly the same.
   Estimator estimator;
   const Estimate whole = estimator.estimate(testing::portrait());
-  const Eigen::VectorXf features = lighting::face_features(whole.faces[whole.largest].observations);
+  const Eigen::VectorXf features = lighting::face_features(whole.largest_face().observations);
   const auto likeness = [&](const Eigen::VectorXf& other) {
     return features.dot(other) / (features.norm() * other.norm());
   };

@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,6 +21,8 @@ namespace faceprobe::face {
 // An upright rectangle; x, y is its top left corner.
 struct Box {
   float x = 0, y = 0, width = 0, height = 0;  // pixels of the photo
+
+  float area() const { return width * height; }
 };
 
 inline constexpr int kMeshVertices = 468;  // MediaPipe's canonical face mesh
@@ -51,6 +54,12 @@ struct Face {
 
   Eigen::Vector3d position_m() const { return camera_from_face.translation(); }  // canonical origin, between the ears
 };
+
+// The face with the largest box; the first of several. `faces` must not be empty.
+inline const Face& largest_of(const std::vector<Face>& faces) {
+  return *std::max_element(faces.begin(), faces.end(),
+                           [](const Face& a, const Face& b) { return a.box.area() < b.box.area(); });
+}
 
 // min_face_px for synthetic pictures: their sides may be no more than 128 px, and a head that is turned away is as narrow as this in them.
 inline constexpr int kSmallFacePx = 30;

@@ -9,7 +9,7 @@
 //     pipeline::Estimator estimator;                                     // loads the models once
 //     const io::Photo photo = io::load_photo("portrait.jpg");
 //     const pipeline::Estimate estimate = estimator.estimate(photo);     // throws Error(kNoFace) when there is none
-//     const pipeline::FaceEstimate& face = estimate.faces[estimate.largest];
+//     const pipeline::FaceEstimate& face = estimate.largest_face();
 //     io::write_env_map("light.exr", face.environment);
 //     for (const lighting::MainLight& light : face.lights) { /* light.direction, light.colour, light.share */ }
 //   }
@@ -172,6 +172,8 @@ struct Estimate {
   std::optional<LightResult> joint;   // from two faces on: one distant light for all of them
   std::vector<StageTime> timings;     // in order
   std::vector<std::string> warnings;  // sentences
+
+  const FaceEstimate& largest_face() const { return faces[largest]; }
 };
 
 class Estimator {

@@ -1,7 +1,7 @@
 #pragma once
 // A photo's own face in another light, from its layers: a preview of what a lamp more or less would do.
 //
-//   const pipeline::FaceEstimate& face = estimate.faces[estimate.largest];
+//   const pipeline::FaceEstimate& face = estimate.largest_face();
 //   const Eigen::MatrixX3f dimmed = lighting::without_main_lights(face.light.radiance, SphereGrid(16), 1);
 //   pipeline::relight(photo.linear, face, dimmed);                    // the photo, its strongest light put out
 //

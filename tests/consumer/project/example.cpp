@@ -9,7 +9,7 @@ int main(int argc, char** argv) {
     const io::Photo photo = io::load_photo(argc > 1 ? argv[1] : "portrait.jpg");
     const pipeline::Estimator estimator;  // loads the models once
     const pipeline::Estimate estimate = estimator.estimate(photo);
-    const pipeline::FaceEstimate& face = estimate.faces[estimate.largest];
+    const pipeline::FaceEstimate& face = estimate.largest_face();
 
     // The light: a map for renderers, the lamps that a person would name, harmonics for a shader.
     io::write_env_map("light.exr", face.environment);

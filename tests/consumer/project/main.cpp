@@ -64,7 +64,7 @@ bool no_face_is_an_error() {
 void print_lights(const char* photo) {
   const faceprobe::pipeline::Estimate estimate =
       faceprobe::pipeline::Estimator().estimate(faceprobe::io::load_photo(photo));
-  for (const faceprobe::lighting::MainLight& light : estimate.faces[estimate.largest].lights) {
+  for (const faceprobe::lighting::MainLight& light : estimate.largest_face().lights) {
     std::printf("azimuth %+.0f, elevation %+.0f degrees: %.0f %% of the energy\n",
                 faceprobe::azimuth_deg(light.direction), faceprobe::elevation_deg(light.direction), 100 * light.share);
   }
