@@ -117,14 +117,14 @@ Bsdf::Draw Bsdf::from_lobe(const Eigen::Vector2f& random) const {
 
 Bsdf::Draw Bsdf::glass(float choice) const {
   const float cosine = std::clamp(normal.dot(view), 0.0F, 1.0F);
-  const float index = inside ? 1 / finish->material.ior : finish->material.ior;
-  const float fresnel = dielectric_fresnel(cosine, index);
+  const float eta = inside ? 1 / finish->material.ior : finish->material.ior;
+  const float fresnel = dielectric_fresnel(cosine, eta);
   if (half == Half::kMirrored) return {mirrored(view, normal), Eigen::Vector3f::Constant(fresnel), 0};
   const float chance = half == Half::kRest ? 0 : fresnel;
   if (choice < chance) return {mirrored(view, normal), Eigen::Vector3f::Ones(), 0};
   // Snell. Radiance that is squeezed on the way in spreads again on the way out, so it is not scaled.
-  const float refracted = std::sqrt(std::max(0.0F, 1 - (1 - cosine * cosine) / (index * index)));
-  const Eigen::Vector3f light = ((cosine / index - refracted) * normal - view / index).normalized();
+  const float refracted = std::sqrt(std::max(0.0F, 1 - (1 - cosine * cosine) / (eta * eta)));
+  const Eigen::Vector3f light = ((cosine / eta - refracted) * normal - view / eta).normalized();
   return {light, (1 - fresnel) / (1 - chance) * colour, 0};
 }
 

@@ -24,16 +24,16 @@ Ggx::Ggx(float alpha) : alpha2_(alpha * alpha), alpha_(alpha) {
       const Eigen::Vector3f light = draw_facet(view, random.pair());
       if (light.z() > 0) sum += single(view, light) / facet_density(view, light);
     }
-    returned_[static_cast<std::size_t>(i)] = static_cast<float>(sum / kSamples);
-    mean_returned_ += 2 * cosine * returned_[static_cast<std::size_t>(i)] / kAngles;
+    directional_albedo_[static_cast<std::size_t>(i)] = static_cast<float>(sum / kSamples);
+    mean_albedo_ += 2 * cosine * directional_albedo_[static_cast<std::size_t>(i)] / kAngles;
   }
 }
 
-float Ggx::returned(float cosine) const {
+float Ggx::directional_albedo(float cosine) const {
   const float x = std::clamp(cosine * kAngles - 0.5F, 0.0F, static_cast<float>(kAngles - 1));
   const int at = std::min(static_cast<int>(x), kAngles - 2);
   const float share = x - static_cast<float>(at);
-  return (1 - share) * returned_[static_cast<std::size_t>(at)] + share * returned_[static_cast<std::size_t>(at) + 1];
+  return (1 - share) * directional_albedo_[static_cast<std::size_t>(at)] + share * directional_albedo_[static_cast<std::size_t>(at) + 1];
 }
 
 float Ggx::lambda(float cosine) const {
@@ -41,7 +41,7 @@ float Ggx::lambda(float cosine) const {
   return 0.5F * (std::sqrt(1 + alpha2_ * std::max(0.0F, 1 - cos2) / cos2) - 1);
 }
 
-float Ggx::facets(const Eigen::Vector3f& half) const {
+float Ggx::distribution(const Eigen::Vector3f& half) const {
   // cos^2 (alpha^2 - 1) + 1, without the cancellation near the normal.
   const float slope = half.x() * half.x() + half.y() * half.y() + alpha2_ * half.z() * half.z();
   return alpha2_ / (kPi32 * slope * slope);
@@ -50,18 +50,18 @@ float Ggx::facets(const Eigen::Vector3f& half) const {
 float Ggx::single(const Eigen::Vector3f& view, const Eigen::Vector3f& light) const {
   if (view.z() <= 0 || light.z() <= 0) return 0;
   const Eigen::Vector3f half = (view + light).normalized();
-  return facets(half) / ((1 + lambda(view.z()) + lambda(light.z())) * 4 * view.z());
+  return distribution(half) / ((1 + lambda(view.z()) + lambda(light.z())) * 4 * view.z());
 }
 
 float Ggx::value(const Eigen::Vector3f& view, const Eigen::Vector3f& light) const {
   if (view.z() <= 0 || light.z() <= 0) return 0;
-  const float lost = 1 - returned(view.z());
-  const float wide = lost * (1 - returned(light.z())) / (kPi32 * std::max(1e-6F, 1 - mean_returned_)) * light.z();
-  return single(view, light) * (1 + 0.5F * lost / returned(view.z())) + 0.5F * wide;
+  const float lost = 1 - directional_albedo(view.z());
+  const float wide = lost * (1 - directional_albedo(light.z())) / (kPi32 * std::max(1e-6F, 1 - mean_albedo_)) * light.z();
+  return single(view, light) * (1 + 0.5F * lost / directional_albedo(view.z())) + 0.5F * wide;
 }
 
 // How often draw() looks for the light that value() spreads wide.
-float Ggx::wide_chance(float cosine) const { return 0.5F * std::clamp(1 - returned(cosine), 0.0F, 1.0F); }
+float Ggx::wide_chance(float cosine) const { return 0.5F * std::clamp(1 - directional_albedo(cosine), 0.0F, 1.0F); }
 
 float Ggx::density(const Eigen::Vector3f& view, const Eigen::Vector3f& light) const {
   if (view.z() <= 0) return 0;
@@ -82,7 +82,7 @@ Eigen::Vector3f Ggx::draw(const Eigen::Vector3f& view, const Eigen::Vector2f& ra
 float Ggx::facet_density(const Eigen::Vector3f& view, const Eigen::Vector3f& light) const {
   const Eigen::Vector3f half = (view + light).normalized();
   if (half.z() <= 0) return 0;
-  return facets(half) / ((1 + lambda(view.z())) * 4 * view.z());
+  return distribution(half) / ((1 + lambda(view.z())) * 4 * view.z());
 }
 
 Eigen::Vector3f Ggx::draw_facet(const Eigen::Vector3f& view, const Eigen::Vector2f& random) const {
@@ -103,12 +103,12 @@ Eigen::Vector3f Ggx::draw_facet(const Eigen::Vector3f& view, const Eigen::Vector
   return 2 * view.dot(half) * half - view;
 }
 
-float dielectric_fresnel(float cosine, float index) {
-  const float sine2 = (1 - cosine * cosine) / (index * index);
+float dielectric_fresnel(float cosine, float eta) {
+  const float sine2 = (1 - cosine * cosine) / (eta * eta);
   if (sine2 >= 1) return 1;
   const float refracted = std::sqrt(1 - sine2);
-  const float parallel = (index * cosine - refracted) / (index * cosine + refracted);
-  const float across = (cosine - index * refracted) / (cosine + index * refracted);
+  const float parallel = (eta * cosine - refracted) / (eta * cosine + refracted);
+  const float across = (cosine - eta * refracted) / (cosine + eta * refracted);
   return 0.5F * (parallel * parallel + across * across);
 }
 

@@ -21,11 +21,11 @@ class Ggx {
   // A direction of light; may lie below the surface, where value() is 0.
   Eigen::Vector3f draw(const Eigen::Vector3f& view, const Eigen::Vector2f& random) const;
   // Share of the light that one scattering returns, by cosine of the viewer's angle.
-  float returned(float cosine) const;
+  float directional_albedo(float cosine) const;
 
  private:
   float lambda(float cosine) const;
-  float facets(const Eigen::Vector3f& half) const;
+  float distribution(const Eigen::Vector3f& half) const;  // D of the microfacets' normals
   float wide_chance(float cosine) const;
   float facet_density(const Eigen::Vector3f& view, const Eigen::Vector3f& light) const;
   Eigen::Vector3f draw_facet(const Eigen::Vector3f& view, const Eigen::Vector2f& random) const;
@@ -33,11 +33,12 @@ class Ggx {
   static constexpr int kAngles = 32;
   float alpha2_;
   float alpha_;
-  std::array<float, kAngles> returned_{};
-  float mean_returned_ = 0;  // over the angles, weighed by their cosines
+  std::array<float, kAngles> directional_albedo_{};
+  float mean_albedo_ = 0;  // over the angles, weighed by their cosines
 };
 
-// Exact Fresnel reflectance of a dielectric for unpolarised light; `index`: of the far side over the near one. 1 where nothing passes.
-float dielectric_fresnel(float cosine, float index);
+// Exact Fresnel reflectance of a dielectric for unpolarised light; `eta`: index of refraction of the far side over the near one's. 1 where nothing
+// passes.
+float dielectric_fresnel(float cosine, float eta);
 
 }  // namespace faceprobe::render

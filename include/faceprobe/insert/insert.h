@@ -2,7 +2,7 @@
 // A virtual thing into a photo, in the photo's own light (the paper's object insertion; differential rendering of Debevec 1998): drawn by the path
 // tracer, its shadow laid on what is there, softened and grained as the photo is.
 //
-//   insert::Scene scene{.view = view_of(photo), .environment = face.environment, .model = render::shape("pot")};
+//   insert::Scene scene{.view = pipeline::view_of(estimate), .environment = face.environment, .model = render::shape("pot")};
 //   render::place(scene.model, {.height_m = 0.2F, .foot = {0.2F, -0.25F, -0.7F}});
 //   const insert::Insertion done = insert::insert_model(photo.linear, scene, {});
 //   io::write_picture("with_pot.png", done.picture);
