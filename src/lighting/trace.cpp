@@ -3,14 +3,25 @@
 #include "faceprobe/core/angles.h"
 #include "faceprobe/core/microfacet.h"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <nanoflann.hpp>
 #include <stdexcept>
+#include <vector>
 
 namespace faceprobe::lighting {
 
+std::string TraceOptions::validate() const {
+  if (neighbours < 1) return "neighbours must be 1 or more, found " + std::to_string(neighbours) + ".";
+  if (!(max_normal_gap_deg >= 0 && max_normal_gap_deg <= 180))
+    return "max_normal_gap_deg must be from 0 to 180, found " + std::to_string(max_normal_gap_deg) + ".";
+  return {};
+}
+
 TracedMap trace_highlights(const Observations& observations, const Eigen::MatrixX3f& highlight, const SphereGrid& grid,
                            const TraceOptions& options) {
+  if (const std::string fault = options.validate(); !fault.empty()) throw std::invalid_argument(fault);
   if (highlight.rows() != observations.count()) throw std::invalid_argument("One highlight per observation is needed.");
   TracedMap traced;
   traced.value.setZero(grid.cell_count(), 3);

@@ -33,7 +33,8 @@ float Ggx::directional_albedo(float cosine) const {
   const float x = std::clamp(cosine * kAngles - 0.5F, 0.0F, static_cast<float>(kAngles - 1));
   const int at = std::min(static_cast<int>(x), kAngles - 2);
   const float share = x - static_cast<float>(at);
-  return (1 - share) * directional_albedo_[static_cast<std::size_t>(at)] + share * directional_albedo_[static_cast<std::size_t>(at) + 1];
+  return (1 - share) * directional_albedo_[static_cast<std::size_t>(at)] +
+         share * directional_albedo_[static_cast<std::size_t>(at) + 1];
 }
 
 float Ggx::lambda(float cosine) const {
@@ -56,7 +57,8 @@ float Ggx::single(const Eigen::Vector3f& view, const Eigen::Vector3f& light) con
 float Ggx::value(const Eigen::Vector3f& view, const Eigen::Vector3f& light) const {
   if (view.z() <= 0 || light.z() <= 0) return 0;
   const float lost = 1 - directional_albedo(view.z());
-  const float wide = lost * (1 - directional_albedo(light.z())) / (kPi32 * std::max(1e-6F, 1 - mean_albedo_)) * light.z();
+  const float wide =
+      lost * (1 - directional_albedo(light.z())) / (kPi32 * std::max(1e-6F, 1 - mean_albedo_)) * light.z();
   return single(view, light) * (1 + 0.5F * lost / directional_albedo(view.z())) + 0.5F * wide;
 }
 

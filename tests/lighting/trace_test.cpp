@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <stdexcept>
+
 namespace faceprobe::lighting {
 namespace {
 
@@ -16,6 +19,16 @@ TEST(Trace, ConstantHighlightsGiveAConstantMap) {
     if (traced.weight[j] > 0) {
       EXPECT_NEAR(traced.value(j, 0), 0.7F, 1e-5F);
     }
+  }
+}
+
+TEST(Trace, OptionsThatMeanNothingAreRefused) {
+  const SphereGrid grid(2);
+  const Observations face = testing::ellipsoid_face(10);
+  for (const TraceOptions wrong : {TraceOptions{.neighbours = 0}, TraceOptions{.max_normal_gap_deg = -1},
+                                   TraceOptions{.max_normal_gap_deg = std::nanf("")}}) {
+    EXPECT_NE(wrong.validate(), "");
+    EXPECT_THROW(trace_highlights(face, face.highlight, grid, wrong), std::invalid_argument);
   }
 }
 

@@ -8,11 +8,15 @@
 #include "faceprobe/core/sphere_grid.h"
 #include "faceprobe/lighting/observations.h"
 
+#include <string>
+
 namespace faceprobe::lighting {
 
 struct TraceOptions {
   int neighbours = 8;            // observed normals that a direction is interpolated from
   float max_normal_gap_deg = 6;  // directions whose mirror normal is further from any observed one stay unobserved
+
+  std::string validate() const;  // empty when usable, else which value is wrong
 };
 
 struct TracedMap {
@@ -23,7 +27,7 @@ struct TracedMap {
 };
 
 // `highlight`: #patches x 3, usually recoloured. The view direction is the mean one (the paper's orthographic camera).
-// Throws std::invalid_argument for another number of rows.
+// Throws std::invalid_argument for another number of rows and options that do not validate.
 TracedMap trace_highlights(const Observations& observations, const Eigen::MatrixX3f& highlight, const SphereGrid& grid,
                            const TraceOptions& options = {});
 

@@ -20,6 +20,7 @@
 #include <Eigen/SparseCore>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace faceprobe::synth {
@@ -63,8 +64,8 @@ struct ViewTransport {
   std::vector<int> hair;            // fragments that are hair ...
   PackedRows hair_diffuse;  // ... and their rows: Kajiya & Kay's diffuse, energy-normalised so that white hair in a white furnace is <= 1
 };
-// `fragments`: of this scene, from find_fragments(); `camera_position`: scene frame, metres. Throws std::invalid_argument when their arrays or
-// the cells of the transport do not fit.
+// `fragments`: of this scene, from find_fragments(); `camera_position`: scene frame, metres; `options`: the threads alone, as the cells are those
+// of the transport. Throws std::invalid_argument when their arrays or the cells of the transport do not fit.
 ViewTransport build_view_transport(const Scene& scene, const SceneTransport& transport, Fragments fragments,
                                    FragmentSurface surface, const Eigen::Vector3f& camera_position,
                                    const TransportOptions& options);
@@ -77,9 +78,12 @@ struct FragmentLight {
 };
 struct ShadeOptions {
   int threads = 0;
-  int near_light_samples = 16;  // points on each near lamp
+  int near_light_samples = 16;  // points on each near lamp, 1 or more
+
+  std::string validate() const;  // empty when usable, else which value is wrong
 };
-// One result per sample. The same bytes for any number of threads. Throws std::invalid_argument for another number of cells.
+// One result per sample. The same bytes for any number of threads. Throws std::invalid_argument for another number of cells and options that do
+// not validate.
 std::vector<FragmentLight> shade(const Scene& scene, const SceneTransport& transport, const ViewTransport& view,
                                  std::span<const LightSample> samples, const ShadeOptions& options);
 

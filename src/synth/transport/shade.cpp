@@ -2,7 +2,6 @@
 #include "faceprobe/core/sphere_grid.h"
 #include "faceprobe/synth/matrix_product.h"
 #include "faceprobe/synth/transport.h"
-
 #include "synth/transport/small_lights.h"
 #include "synth/transport/vertex_mix.h"
 
@@ -132,8 +131,15 @@ class SmallLights {
 
 }  // namespace
 
+std::string ShadeOptions::validate() const {
+  if (near_light_samples < 1)
+    return "near_light_samples must be 1 or more, found " + std::to_string(near_light_samples) + ".";
+  return {};
+}
+
 std::vector<FragmentLight> shade(const Scene& scene, const SceneTransport& transport, const ViewTransport& view,
                                  std::span<const LightSample> samples, const ShadeOptions& options) {
+  if (const std::string fault = options.validate(); !fault.empty()) throw std::invalid_argument(fault);
   check(transport, view, samples);
 
   const Eigen::Index fragments = view.fragments.count();

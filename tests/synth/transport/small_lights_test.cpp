@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <stdexcept>
+
 namespace faceprobe::synth {
 namespace {
 
@@ -34,6 +36,12 @@ TEST(SmallLights, DistantLightOnABallIsTheClosedForm) {
     const float lobe = specular_lobe(normal, view, towards, {stage.view.surface.roughness(i), 1.0F, 0.04F});
     EXPECT_NEAR(out.specular(i, 1), 2 * lobe, 1e-3F * lobe + 1e-5F);
   }
+}
+
+// No points on a lamp would leave it out in silence.
+TEST(SmallLights, LampsWithoutPointsAreRefused) {
+  const Stage stage = make_stage(scene_of({ball(0.1F, 8)}), camera_at(1.0F, 0.12F, 8), 0.3F, kCoarse);
+  EXPECT_THROW(light_up(stage, lamp(stage, {0, 0, 0.5F}, 0.02F, 1), {.near_light_samples = 0}), std::invalid_argument);
 }
 
 TEST(SmallLights, VerticesGetDistantLightForTheBounce) {
