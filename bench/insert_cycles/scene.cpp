@@ -50,7 +50,7 @@ render::Model stand_on_card(const std::filesystem::path& object, const Material&
   for (render::TriangleMesh& mesh : model.meshes) mesh.material = 0;
   const auto tilt = static_cast<float>(radians(kTiltDeg));
   const Eigen::Vector3f up(0, std::cos(tilt), std::sin(tilt));
-  render::place(model, {.height_m = kHeight, .foot = kFoot, .up = up});
+  render::place(model, {.height_m = kHeight, .foot_m = kFoot, .up = up});
   render::Model ground{{card()}, {}};
   render::transform(ground, Eigen::Translation3f(kFoot - kGap * up) *
                                 Eigen::Quaternionf::FromTwoVectors(Eigen::Vector3f::UnitY(), up));

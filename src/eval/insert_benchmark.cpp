@@ -45,8 +45,8 @@ insert::Scene scene_of(const SyntheticPhoto& photo, const render::Model& model) 
   const Eigen::Vector3f size = model.box().sizes();
   const float width_m = kSize * depth_m * static_cast<float>(scene.view.width_px / scene.view.focal_px);
   render::place(scene.model, {.height_m = width_m * size.y() / std::max(size.x(), size.y()),
-                              .foot = insert::point_at(scene.view, kAcross * scene.view.width_px,
-                                                       kDown * scene.view.height_px, depth_m)});
+                              .foot_m = insert::point_at(scene.view, kAcross * scene.view.width_px,
+                                                         kDown * scene.view.height_px, depth_m)});
   return scene;
 }
 

@@ -8,7 +8,7 @@ namespace {
 // Depth along -z where the ray through a pixel's centre meets the ground's plane; 0 where it does not.
 float ground_depth(const render::PinholeView& view, const render::Ground& ground, int x, int y) {
   const float fall = view.ray(x + 0.5, y + 0.5).dot(ground.up);
-  return fall == 0 ? 0 : std::max(0.0F, ground.point.dot(ground.up) / fall);
+  return fall == 0 ? 0 : std::max(0.0F, ground.point_m.dot(ground.up) / fall);
 }
 
 }  // namespace

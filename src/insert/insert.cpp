@@ -23,7 +23,7 @@ constexpr std::uint64_t kGrainSeed = 1;
 Eigen::AlignedBox3f with_ground(Eigen::AlignedBox3f box, const render::Ground& ground) {
   // A disc's half width along each axis.
   const Eigen::Vector3f half = ground.radius_m * (1 - ground.up.array().square()).max(0.0F).sqrt().matrix();
-  return box.extend(ground.point - half).extend(ground.point + half);
+  return box.extend(ground.point_m - half).extend(ground.point_m + half);
 }
 
 PixelBox wider(const PixelBox& box, int margin_px, const render::PinholeView& view) {
@@ -41,7 +41,7 @@ render::Ground ground_under(const Scene& scene) {
     lowest = std::min(lowest, (mesh.vertices * scene.up).minCoeff());
   render::Ground ground;
   ground.up = scene.up;
-  ground.point = middle + (lowest - middle.dot(scene.up)) * scene.up;
+  ground.point_m = middle + (lowest - middle.dot(scene.up)) * scene.up;
   ground.radius_m = kGroundReach * longest_side(scene.model);
   return ground;
 }
@@ -56,7 +56,7 @@ Eigen::Vector3f albedo_from_photo(const Image& photo, const PixelBox& box, const
     for (int x = box.left; x < box.right; ++x, ++count)
       sum += Eigen::Map<const Eigen::Vector3f>(photo.pixel(x, y)).cast<double>();
   }
-  const Eigen::Vector3f light = render::open_light(scene.environment, scene.lamps, ground.point, ground.up);
+  const Eigen::Vector3f light = render::open_light(scene.environment, scene.lamps, ground.point_m, ground.up);
   const Eigen::Vector3f colour = (sum / std::max(1, count)).cast<float>();
   return (colour.array() / light.array().max(1e-6F)).min(kMostAlbedo).max(kLeastAlbedo);
 }

@@ -147,7 +147,7 @@ insert::Scene scene_for(const io::Photo& photo, const Estimate& estimate, render
   const Eigen::Vector3f foot = insert::point_at(scene.view, spot.at_px.x(), spot.at_px.y(), spot.depth_m);
   render::place(
       scene.model,
-      {.height_m = spot.height_m, .foot = foot, .up = scene.up, .turn = static_cast<float>(radians(options.turn_deg))});
+      {.height_m = spot.height_m, .foot_m = foot, .up = scene.up, .turn = static_cast<float>(radians(options.turn_deg))});
   light_scene(estimate, foot, options, scene);
   scene.matte = matte_of(estimate, options.matte);
   return scene;

@@ -58,8 +58,9 @@ std::string insertion_json(const insert::Insertion& done, const insert::Scene& s
   json["ground"] = scene.ground ? Json{{"albedo", array_of(done.ground_albedo)}} : Json(nullptr);
   json["lamps"] = Json::array();
   for (const render::BallLamp& lamp : scene.lamps)
-    json["lamps"].push_back(
-        {{"position_m", array_of(lamp.position)}, {"radius_m", lamp.radius_m}, {"intensity", array_of(lamp.intensity)}});
+    json["lamps"].push_back({{"position_m", array_of(lamp.position_m)},
+                             {"radius_m", lamp.radius_m},
+                             {"intensity", array_of(lamp.intensity)}});
   json["box_px"] = {
       {"left", done.box.left}, {"top", done.box.top}, {"width", done.box.width()}, {"height", done.box.height()}};
   json["blur_px"] = done.blur_px;

@@ -81,11 +81,11 @@ void part(const LightResult& light, const LampOfLight& of_light, const Insertion
     const Eigen::Vector3f position = of_light[k]->position_m.cast<float>();
     const Eigen::Vector3f intensity =
         (main.irradiance * squared_distance_to(*of_light[k]) * main.colour).template cast<float>();
-    const auto known = std::ranges::find_if(scene.lamps, [&](const auto& lamp) { return lamp.position == position; });
+    const auto known = std::ranges::find_if(scene.lamps, [&](const auto& lamp) { return lamp.position_m == position; });
     if (known != scene.lamps.end()) {
       known->intensity += intensity;  // two lights of the joint map
     } else {
-      scene.lamps.push_back({.position = position, .radius_m = kLampRadiusM, .intensity = intensity});
+      scene.lamps.push_back({.position_m = position, .radius_m = kLampRadiusM, .intensity = intensity});
     }
   }
   if (scene.lamps.empty()) return;

@@ -78,7 +78,7 @@ std::string furnace() {
   render::Model ball = render::sphere();
   ball.materials = {{.name = "white", .kind = render::MaterialKind::kPlastic, .colour = Eigen::Vector3f::Ones()}};
   for (render::TriangleMesh& mesh : ball.meshes) mesh.material = 0;
-  render::place(ball, {.height_m = 0.3F, .foot = {0, -0.15F, -1}});
+  render::place(ball, {.height_m = 0.3F, .foot_m = {0, -0.15F, -1}});
   EnvMap even(16, 8);
   std::fill(even.radiance().values().begin(), even.radiance().values().end(), 1.0F);
   const render::Layers layers =

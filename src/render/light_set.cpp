@@ -26,7 +26,7 @@ LightSet::LightSet(const EnvMap& map, const std::vector<BallLamp>& lamps, const 
     : map_(map), lamps_(lamps) {
   float sum = 0;
   for (const BallLamp& lamp : lamps_) {
-    chance_.push_back(lamp.intensity.mean() / std::max(1e-4F, (lamp.position - centre).squaredNorm()));
+    chance_.push_back(lamp.intensity.mean() / std::max(1e-4F, (lamp.position_m - centre).squaredNorm()));
     sum += chance_.back();
   }
   if (!(sum > 0)) {
@@ -53,7 +53,7 @@ LightSet::Seen LightSet::draw(const Eigen::Vector3f& from, float choice, const E
 }
 
 LightSet::Seen LightSet::draw_lamp(std::size_t lamp, const Eigen::Vector3f& from, const Eigen::Vector2f& random) const {
-  const Eigen::Vector3f way = lamps_[lamp].position - from;
+  const Eigen::Vector3f way = lamps_[lamp].position_m - from;
   const float distance2 = way.squaredNorm();
   const float cap = cap_of(lamps_[lamp], distance2);
   if (cap >= 2) return {Eigen::Vector3f::UnitZ()};  // inside it: nothing sensible
@@ -70,7 +70,7 @@ LightSet::Seen LightSet::draw_lamp(std::size_t lamp, const Eigen::Vector3f& from
 LightSet::Seen LightSet::lamp_along(const Eigen::Vector3f& from, const Eigen::Vector3f& direction, float far) const {
   Seen seen{direction};
   for (std::size_t i = 0; i < lamps_.size(); ++i) {
-    const Eigen::Vector3f way = lamps_[i].position - from;
+    const Eigen::Vector3f way = lamps_[i].position_m - from;
     const float along = way.dot(direction);
     const float inside2 = lamps_[i].radius_m * lamps_[i].radius_m - (way - along * direction).squaredNorm();
     if (along <= 0 || inside2 <= 0) continue;

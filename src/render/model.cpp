@@ -111,7 +111,7 @@ void place(Model& model, const Placement& placement) {
   const Eigen::Vector3f up = placement.up / length;
   const Eigen::Vector3f underside(box.center().x(), box.min().y(), box.center().z());
   Eigen::Affine3f world_from_model = Eigen::Affine3f::Identity();
-  world_from_model.translate(placement.foot);
+  world_from_model.translate(placement.foot_m);
   world_from_model.rotate(Eigen::AngleAxisf(placement.turn, up));
   world_from_model.rotate(Eigen::Quaternionf::FromTwoVectors(Eigen::Vector3f::UnitY(), up));
   world_from_model.scale(placement.height_m / box.sizes().y());

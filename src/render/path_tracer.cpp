@@ -39,14 +39,14 @@ std::string SceneOptions::validate() const {
       !std::isfinite(view.centre_y_px))
     return "A view needs a focal length above 0 pixels and a finite centre.";
   if (ground) {
-    if (!ground->point.allFinite() || std::abs(ground->up.norm() - 1) > 1e-3F)
+    if (!ground->point_m.allFinite() || std::abs(ground->up.norm() - 1) > 1e-3F)
       return "A ground needs a finite place and a unit normal.";
     if (!(ground->radius_m > 0) || !std::isfinite(ground->radius_m)) return "A ground needs a radius above 0 metres.";
     if (!(ground->albedo.minCoeff() >= 0 && ground->albedo.maxCoeff() <= 1))
       return "A ground's albedo must be from 0 to 1.";
   }
   for (const BallLamp& lamp : lamps) {
-    if (!lamp.position.allFinite() || !lamp.intensity.allFinite() || lamp.intensity.minCoeff() < 0)
+    if (!lamp.position_m.allFinite() || !lamp.intensity.allFinite() || lamp.intensity.minCoeff() < 0)
       return "A lamp needs a finite place and an intensity of 0 or more.";
     if (!(lamp.radius_m > 0) || !std::isfinite(lamp.radius_m)) return "A lamp needs a radius above 0 metres.";
   }
@@ -132,7 +132,7 @@ Eigen::Vector3f open_light(const EnvMap& environment, const std::vector<BallLamp
     }
   }
   for (const BallLamp& lamp : lamps) {
-    const Eigen::Vector3f way = lamp.position - point;
+    const Eigen::Vector3f way = lamp.position_m - point;
     const float distance = way.norm();
     if (distance <= lamp.radius_m) continue;
     sum += (std::max(0.0F, normal.dot(way)) / (distance * distance * distance) * lamp.intensity).cast<double>();

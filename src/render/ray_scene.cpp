@@ -138,9 +138,9 @@ float RayScene::ground_distance(const Eigen::Vector3f& origin, const Eigen::Vect
   const Ground& ground = *state_->ground;
   const float fall = direction.dot(ground.up);
   if (fall >= 0) return kFar;  // from below it is not there
-  const float distance = (ground.point - origin).dot(ground.up) / fall;
+  const float distance = (ground.point_m - origin).dot(ground.up) / fall;
   if (!(distance > 0)) return kFar;
-  const Eigen::Vector3f from_centre = origin + distance * direction - ground.point;
+  const Eigen::Vector3f from_centre = origin + distance * direction - ground.point_m;
   return from_centre.squaredNorm() <= ground.radius_m * ground.radius_m ? distance : kFar;
 }
 

@@ -30,7 +30,7 @@ TEST(Composite, NothingDrawnLeavesThePhoto) {
 
 TEST(Composite, WhoStandsNearerHidesModelAndShadow) {
   const render::PinholeView view{1, 0.5, 0.5, 1, 1};
-  const render::Ground ground{.point = {0, 0, -3}, .up = {0, 0, 1}};  // a wall at 3 m
+  const render::Ground ground{.point_m = {0, 0, -3}, .up = {0, 0, 1}};  // a wall at 3 m
   const auto hidden_at = [&](float person_m, float model_m) {
     const Matte matte{Image(1, 1, 1, 0.75F), Image(1, 1, 1, person_m)};
     return hidden_by(matte, layers_of({1, 1, 1, 1}, 1, 0, model_m), view, ground, kBox);

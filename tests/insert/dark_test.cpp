@@ -13,7 +13,7 @@ namespace {
 
 Scene standing_in_the_dark(const std::string& shape) {
   Scene scene{.view = {120, 48, 36, 96, 72}, .environment = EnvMap(16, 8), .model = render::shape(shape)};
-  render::place(scene.model, {.height_m = 0.2F, .foot = {0, -0.12F, -1}});
+  render::place(scene.model, {.height_m = 0.2F, .foot_m = {0, -0.12F, -1}});
   return scene;
 }
 
@@ -88,7 +88,8 @@ TEST(Dark, ABlackPhotoStaysBlack) {
 TEST(Dark, ALampAloneLightsTheObject) {
   const Image photo(96, 72, 3, 0.25F);
   Scene scene = standing_in_the_dark("cube");
-  scene.lamps.push_back({.position = {0.3F, 0.6F, -0.5F}, .radius_m = 0.05F, .intensity = Eigen::Vector3f::Constant(2)});
+  scene.lamps.push_back(
+      {.position_m = {0.3F, 0.6F, -0.5F}, .radius_m = 0.05F, .intensity = Eigen::Vector3f::Constant(2)});
   const Insertion done = insert_model(photo, scene, few_rays());
   EXPECT_TRUE(all_finite(done.picture));
   EXPECT_GT(done.picture(48, 42, 0), 0.02F);

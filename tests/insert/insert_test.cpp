@@ -21,7 +21,7 @@ Scene ball_in(const EnvMap& map, const Eigen::Vector3f& foot = {0, -0.15F, -1}) 
   Scene scene{.view = kView, .environment = map, .model = render::sphere()};
   scene.model.materials = {render::material_preset("diffuse")};
   for (render::TriangleMesh& mesh : scene.model.meshes) mesh.material = 0;
-  render::place(scene.model, {.height_m = 0.2F, .foot = foot});
+  render::place(scene.model, {.height_m = 0.2F, .foot_m = foot});
   return scene;
 }
 

@@ -94,9 +94,9 @@ TEST(Insertion, ANearLampIsPutWhereItStandsAndTakenOutOfTheMap) {
     ASSERT_EQ(scene.lamps.size(), 1U);
     const render::BallLamp& lamp = scene.lamps[0];
     // The patch's centroid is found to about a degree, as cells are 3.7 degrees wide; rays 1.5 m long meet at a slant.
-    EXPECT_LT((lamp.position.cast<double>() - lamp_m).norm(), 0.08);
+    EXPECT_LT((lamp.position_m.cast<double>() - lamp_m).norm(), 0.08);
     EXPECT_GT(lamp.radius_m, 0);
-    const double distance = (lamp.position.cast<double>() - face.face.position_m()).norm();
+    const double distance = (lamp.position_m.cast<double>() - face.face.position_m()).norm();
     const Eigen::Vector3d by_lamp = lamp.intensity.cast<double>() / (distance * distance);
     const Eigen::Vector3d rest = scene.environment.integral();
     const Eigen::Vector3d whole = face.environment.integral();
@@ -135,7 +135,7 @@ void expect_lamp_apart(const insert::Scene& scene, const LightResult& light, con
   ASSERT_EQ(light.lights.size(), 2U);
   ASSERT_LT(light.lights[0].direction.x(), -0.8);  // the sun comes first
   ASSERT_EQ(scene.lamps.size(), 1U);
-  const Eigen::Vector3d place = scene.lamps[0].position.cast<double>();
+  const Eigen::Vector3d place = scene.lamps[0].position_m.cast<double>();
   EXPECT_LT((place - kLampBehindSun).norm(), 0.08);  // as for one lamp alone
   const Eigen::Vector3d by_lamp = per_intensity(place) * scene.lamps[0].intensity.cast<double>();
   const Eigen::Vector3d rest = scene.environment.integral();

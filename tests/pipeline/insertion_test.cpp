@@ -303,7 +303,7 @@ struct Drawn {
     for (render::TriangleMesh& mesh : ball.meshes) mesh.material = 0;
     scene = scene_for(photo_of(estimate), estimate, ball,
                       {.at_px = Eigen::Vector2d(70, 60), .depth_m = 1, .height_m = 0.2F, .turn_deg = 0});
-    scene.lamps.push_back({.position = {0, 1, -1}, .radius_m = 0.1F, .intensity = {1, 2, 3}});
+    scene.lamps.push_back({.position_m = {0, 1, -1}, .radius_m = 0.1F, .intensity = {1, 2, 3}});
     insert::Options options;
     options.render.samples = 4;
     options.render.noise = 0;

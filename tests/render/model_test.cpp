@@ -97,7 +97,7 @@ TEST(Model, MirrorImageIsNotInsideOut) {
 
 TEST(Model, PlacedUprightItsFrontFacesTheViewer) {
   Model model = points_of_a_box();
-  place(model, {.height_m = 2, .foot = {-1, 0.5F, -4}});
+  place(model, {.height_m = 2, .foot_m = {-1, 0.5F, -4}});
   EXPECT_POINT(vertex(model, 2), -1, 2.5F, -4);  // top
   EXPECT_POINT(vertex(model, 3), -1, 0.5F, -2.5F);
   EXPECT_POINT(normal(model, 0), 0, 0, 1);
@@ -115,7 +115,7 @@ TEST(Model, PlacedOnASlopeItStandsAtRightAngles) {
   Model model = points_of_a_box();
   const Eigen::Vector3f up(0, 0.8F, 0.6F);
   // Of another length, which does not count.
-  place(model, {.height_m = 4, .foot = {1, 2, 3}, .up = 7 * up, .turn = static_cast<float>(radians(90))});
+  place(model, {.height_m = 4, .foot_m = {1, 2, 3}, .up = 7 * up, .turn = static_cast<float>(radians(90))});
   EXPECT_POINT(vertex(model, 2), 1, 2 + 3.2F, 3 + 2.4F);
   // The tilt takes +z to (0, -.6, .8); a quarter turn about `up` takes that to +x.
   EXPECT_POINT(normal(model, 0), 1, 0, 0);

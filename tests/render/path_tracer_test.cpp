@@ -17,7 +17,7 @@ Model ball(const Material& material) {
   Model model = sphere();
   model.materials = {material};
   for (TriangleMesh& mesh : model.meshes) mesh.material = 0;
-  place(model, {.height_m = 0.3F, .foot = {0, -0.15F, -1}});
+  place(model, {.height_m = 0.3F, .foot_m = {0, -0.15F, -1}});
   return model;
 }
 
@@ -94,7 +94,7 @@ TEST(PathTracer, AChangedRoughnessWidensTheHighlight) {
 TEST(PathTracer, FurnaceWithGroundLosesWhatTheGroundTakes) {
   // Nothing is lost between a white ball and a white ground, which here goes on for ever.
   const Model model = ball({.colour = Eigen::Vector3f::Ones()});
-  const Ground white{.point = {0, -0.15F, -1}, .radius_m = 1e4F, .albedo = Eigen::Vector3f::Ones()};
+  const Ground white{.point_m = {0, -0.15F, -1}, .radius_m = 1e4F, .albedo = Eigen::Vector3f::Ones()};
   const PathTracer tracer(model, even_map(1), {.view = kView, .ground = white});
   const Layers layers = tracer.render({.samples = 256, .max_bounces = 200});
   EXPECT_NEAR(light_of(layers.object, 32, 32).x(), 1, 0.02);
@@ -120,9 +120,9 @@ TEST(PathTracer, BallLampFollowsTheInverseSquare) {
   card.meshes = {mesh};
   const Eigen::Vector3f seen(0, -0.3F, -1);  // pixel (32, 32 + 80 * .3)
   for (const float radius : {0.01F, 0.3F}) {
-    const BallLamp lamp{.position = {0.5F, 0.4F, -1.3F}, .radius_m = radius, .intensity = {1, 2, 3}};
+    const BallLamp lamp{.position_m = {0.5F, 0.4F, -1.3F}, .radius_m = radius, .intensity = {1, 2, 3}};
     const PathTracer tracer(card, EnvMap(8, 4), {.view = {800, 32, 32 - 240, 64, 64}, .lamps = {lamp}});
-    const Eigen::Vector3f way = lamp.position - seen;
+    const Eigen::Vector3f way = lamp.position_m - seen;
     const float expected = way.normalized().y() / way.squaredNorm() / static_cast<float>(kPi);
     const Layers layers = tracer.render({.samples = 256});
     EXPECT_NEAR(light_of(layers.object, 32, 32).x(), expected, 0.01F * expected) << radius;  // noise; a pixel is 2 mm
@@ -140,7 +140,7 @@ TEST(OpenLight, EvenSkyGivesItsRadiance) {
 }
 
 TEST(OpenLight, ALampAroundThePointGivesNothing) {
-  const BallLamp around{.position = {0, 0.05F, 0}, .radius_m = 0.1F};
+  const BallLamp around{.position_m = {0, 0.05F, 0}, .radius_m = 0.1F};
   for (const float y : {0.0F, 0.05F})  // in it, and at its centre, which has no direction
     EXPECT_EQ(open_light(EnvMap(8, 4), {around}, {0, y, 0}, Eigen::Vector3f::UnitY()), Eigen::Vector3f::Zero()) << y;
 }
@@ -153,7 +153,7 @@ TEST(PinholeView, RaysGoRightAndUpWithThePhoto) {
 }
 
 TEST(PathTracer, LampIsSeenInAMirrorAsBrightAsItIs) {
-  const BallLamp lamp{.position = {0, 0, 1.5F}, .radius_m = 0.8F, .intensity = Eigen::Vector3f::Ones()};
+  const BallLamp lamp{.position_m = {0, 0, 1.5F}, .radius_m = 0.8F, .intensity = Eigen::Vector3f::Ones()};
   const PathTracer tracer(ball({.kind = MaterialKind::kMetal, .colour = Eigen::Vector3f::Ones()}), even_map(0.1F),
                           {.view = kView, .lamps = {lamp}});
   const float radiance = 1 / (static_cast<float>(kPi) * 0.64F) + 0.1F;
@@ -177,7 +177,7 @@ TEST(PathTracer, DiffuseBallUnderOneLight) {
 
 TEST(PathTracer, ShadowLiesOppositeTheLightAndNowhereElse) {
   Eigen::Vector3f towards = Eigen::Vector3f(1, 1, 0).normalized();
-  const Ground ground{.point = {0, -0.3F, -1}, .radius_m = 3};
+  const Ground ground{.point_m = {0, -0.3F, -1}, .radius_m = 3};
   const PathTracer tracer(ball({.colour = Eigen::Vector3f::Zero()}), one_light(towards),
                           {.view = {60, 32, 20, 64, 64}, .ground = ground});
   const Layers layers = tracer.render({.samples = 64});
@@ -190,7 +190,7 @@ TEST(PathTracer, ShadowLiesOppositeTheLightAndNowhereElse) {
 }
 
 TEST(PathTracer, FromBelowTheGroundIsNotThere) {
-  const Ground ground{.point = {0, 0.2F, -1}, .radius_m = 3};
+  const Ground ground{.point_m = {0, 0.2F, -1}, .radius_m = 3};
   const PathTracer tracer(ball(material_preset("diffuse")), even_map(1), {.view = kView, .ground = ground});
   const Layers layers = tracer.render({.samples = 16});
   EXPECT_EQ(layers.object(32, 32, 3), 1);
@@ -209,7 +209,7 @@ TEST(PathTracer, MirrorShowsThePhotoBehindTheViewOnlyWhereItIs) {
 }
 
 TEST(PathTracer, SameForAnyNumberOfThreads) {
-  const Ground ground{.point = {0, -0.15F, -1}};
+  const Ground ground{.point_m = {0, -0.15F, -1}};
   Eigen::Vector3f up = Eigen::Vector3f::UnitY();
   const PathTracer tracer(ball(material_preset("plastic")), one_light(up), {.view = kView, .ground = ground});
   const Layers one = tracer.render({.samples = 256, .noise = 0.05F, .threads = 1});

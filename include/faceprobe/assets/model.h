@@ -3,7 +3,7 @@
 // base-colour textures. Not for heads (assets/heads.h), and not for what is lit without being drawn (assets/object.h).
 //
 //   assets::LoadedModel pot = assets::load_model("pot.glb");
-//   render::place(pot.model, {.height_m = 0.2F, .foot = {0.1F, -0.15F, -0.6F}});
+//   render::place(pot.model, {.height_m = 0.2F, .foot_m = {0.1F, -0.15F, -0.6F}});
 //
 // Lengths are the file's, which seldom says its unit: place() gives the thing its size. Axes are the file's too; OBJ and glTF
 // are +y up, scans and prints in PLY and STL often lie down. Animations, skins, cameras and lights are left out.

@@ -3,7 +3,7 @@
 // tracer, its shadow laid on what is there, softened and grained as the photo is.
 //
 //   insert::Scene scene{.view = pipeline::view_of(estimate), .environment = face.environment, .model = render::shape("pot")};
-//   render::place(scene.model, {.height_m = 0.2F, .foot = {0.2F, -0.25F, -0.7F}});
+//   render::place(scene.model, {.height_m = 0.2F, .foot_m = {0.2F, -0.25F, -0.7F}});
 //   const insert::Insertion done = insert::insert_model(photo.linear, scene, {});
 //   io::write_picture("with_pot.png", done.picture);
 //

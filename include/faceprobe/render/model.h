@@ -2,7 +2,7 @@
 // A thing to be drawn: triangle meshes and their materials, +y up, front towards +z.
 //
 //   Model model = pot();                                        // render/shapes.h; or assets::load_model("thing.glb").model
-//   place(model, {.height_m = 0.2F, .foot = {0.1F, -0.15F, -0.6F}});
+//   place(model, {.height_m = 0.2F, .foot_m = {0.1F, -0.15F, -0.6F}});
 
 #include "faceprobe/render/material.h"
 
@@ -38,9 +38,9 @@ void transform(Model& model, const Eigen::Transform<float, 3, Eigen::Affine>& wo
 
 // Scales the model to a size and stands it somewhere.
 struct Placement {
-  float height_m = 0.2F;                           // of its box
-  Eigen::Vector3f foot = Eigen::Vector3f::Zero();  // where the middle of the box's underside goes
-  Eigen::Vector3f up = Eigen::Vector3f::UnitY();   // where its +y goes
+  float height_m = 0.2F;                             // of its box
+  Eigen::Vector3f foot_m = Eigen::Vector3f::Zero();  // where the middle of the box's underside goes
+  Eigen::Vector3f up = Eigen::Vector3f::UnitY();     // where its +y goes
   float turn = 0;  // radians about up, positive to the viewer's right seen from the front
 };
 // Throws std::invalid_argument for a model without height, a height that is not above 0, and an `up` without length.

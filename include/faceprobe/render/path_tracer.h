@@ -4,7 +4,7 @@
 //
 // Everything is in the camera's frame (CONVENTIONS.md): the camera at the origin looks along -z.
 //
-//   const PathTracer tracer(model, environment, {.view = {900, 320, 240, 640, 480}, .ground = Ground{.point = {0, -0.2F, -0.8F}}});
+//   const PathTracer tracer(model, environment, {.view = {900, 320, 240, 640, 480}, .ground = Ground{.point_m = {0, -0.2F, -0.8F}}});
 //   const Layers layers = tracer.render({.samples = 64});
 //
 // Unidirectional path tracing with multiple importance sampling of map, lamps and surfaces (Veach 1997). Not for animation, subsurface
@@ -38,15 +38,15 @@ struct PinholeView {
 
 // A diffuse disc that the thing stands on.
 struct Ground {
-  Eigen::Vector3f point = Eigen::Vector3f::Zero();  // its centre, metres
-  Eigen::Vector3f up = Eigen::Vector3f::UnitY();    // its normal, unit
+  Eigen::Vector3f point_m = Eigen::Vector3f::Zero();  // its centre
+  Eigen::Vector3f up = Eigen::Vector3f::UnitY();      // its normal, unit
   float radius_m = 1;
   Eigen::Vector3f albedo = Eigen::Vector3f::Constant(0.3F);  // linear, 0..1
 };
 
 // A small near light: a ball that shines evenly and lets all other light through. Not seen itself by the camera.
 struct BallLamp {
-  Eigen::Vector3f position = Eigen::Vector3f::Zero();  // metres
+  Eigen::Vector3f position_m = Eigen::Vector3f::Zero();
   float radius_m = 0.05F;
   Eigen::Vector3f intensity =
       Eigen::Vector3f::Ones();  // radiance x projected area: irradiance at distance r is intensity / r^2
