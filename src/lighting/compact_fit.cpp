@@ -30,7 +30,7 @@ constexpr int kSteps = 5;           // of Gauss-Newton
 constexpr double kProbeRad = 0.02;  // of the differences that slopes are taken from
 constexpr double kLongestStepRad = 0.12;
 constexpr double kShortestStepRad = 0.002;
-constexpr int kBlock = 64;  // rows of one product: the same rounding for any number of threads
+constexpr int kRowsAtOnce = 64;  // rows of one product: the same rounding for any number of threads
 
 struct Disc {
   double width_deg;
@@ -44,13 +44,13 @@ struct Column {
   Eigen::VectorXd highlight, shading;
 };
 
-Eigen::MatrixXd seen_through(const RowMatrix& transport, const Eigen::MatrixXf& cells, int threads) {
+Eigen::MatrixXd seen_through(const Eigen::Ref<const RowMatrix>& transport, const Eigen::MatrixXf& cells, int threads) {
   Eigen::MatrixXf rows(transport.rows(), cells.cols());
-  const Eigen::Index blocks = (transport.rows() + kBlock - 1) / kBlock;
+  const Eigen::Index blocks = (transport.rows() + kRowsAtOnce - 1) / kRowsAtOnce;
   parallel_for(static_cast<int>(blocks), threads, [&](int first, int last) {
     for (Eigen::Index b = first; b < last; ++b) {
-      const Eigen::Index size = std::min<Eigen::Index>(kBlock, transport.rows() - b * kBlock);
-      rows.middleRows(b * kBlock, size).noalias() = transport.middleRows(b * kBlock, size) * cells;
+      const Eigen::Index size = std::min<Eigen::Index>(kRowsAtOnce, transport.rows() - b * kRowsAtOnce);
+      rows.middleRows(b * kRowsAtOnce, size).noalias() = transport.middleRows(b * kRowsAtOnce, size) * cells;
     }
   });
   return rows.cast<double>();
@@ -82,7 +82,7 @@ class Problem {
     for (std::size_t k = 0; k < kinds_.size(); ++k) {
       RobustRows& rows = kinds_[k];
       const Eigen::MatrixXd seen =
-          seen_through(k == 0 ? transport_.diffuse : transport_.highlight, shapes, options_.threads);
+          seen_through(k == 0 ? transport_.diffuse() : transport_.highlight(), shapes, options_.threads);
       rows.surround = seen.leftCols<kSurround>();
       const Eigen::VectorXd glow = seen.col(kSurround);
       // Rough at first: a tenth of the data, and one row in five worth a row.
@@ -113,8 +113,8 @@ class Problem {
     std::vector<Column> out(centres.size());
     for (std::size_t i = 0; i < centres.size(); ++i) {
       const Eigen::Index at = parts * static_cast<Eigen::Index>(i);
-      out[i] = {seen.highlight.middleCols(at, parts).rowwise().sum().cast<double>(),
-                seen.diffuse.middleCols(at, parts).rowwise().sum().cast<double>()};
+      out[i] = {seen.highlight().middleCols(at, parts).rowwise().sum().cast<double>(),
+                seen.diffuse().middleCols(at, parts).rowwise().sum().cast<double>()};
     }
     return out;
   }
@@ -148,8 +148,8 @@ class Problem {
     Column out{Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n)};
     for (Eigen::Index i = 0; i < n; ++i) {
       for (std::size_t k = 0; k < cells.size(); ++k) {
-        out.shading[i] += static_cast<double>(share[k] * transport_.diffuse(i, cells[k])) / sum;
-        if (highlights_) out.highlight[i] += static_cast<double>(share[k] * transport_.highlight(i, cells[k])) / sum;
+        out.shading[i] += static_cast<double>(share[k] * transport_.diffuse()(i, cells[k])) / sum;
+        if (highlights_) out.highlight[i] += static_cast<double>(share[k] * transport_.highlight()(i, cells[k])) / sum;
       }
     }
     return out;
@@ -253,7 +253,7 @@ CompactFit coloured(const Observations& observations, const Transport& transport
     out.surround.row(j) = kept * spread.radiance.row(j) + smooth[j] * colour;
   }
   const int channels = observations.grey ? 1 : 3;
-  const Eigen::MatrixXd seen = seen_through(transport.diffuse, out.surround.leftCols(channels), threads);
+  const Eigen::MatrixXd seen = seen_through(transport.diffuse(), out.surround.leftCols(channels), threads);
   const Eigen::VectorXd& weight = fit.influence;
   const double own = column.dot(weight.cwiseProduct(column));
   for (int c = 0; c < channels; ++c) {

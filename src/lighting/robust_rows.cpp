@@ -13,20 +13,20 @@ namespace faceprobe::lighting {
 
 namespace {
 
-using Flags = Eigen::Array<bool, kUnknowns, 1>;
+using UnknownFlags = Eigen::Array<bool, kUnknowns, 1>;
 
-constexpr int kRounds = 4;             // of weights by residuals
+constexpr int kWeightRounds = 4;       // of weights by residuals
 constexpr double kLeastScale = 0.002;  // of the data: exact layers are never that exact
 constexpr double kMostScales = 3;  // of a residual where correlations are reckoned: outliers tell nothing of neighbours
 constexpr double kBinDeg = 6;
-constexpr int kBins = 10;  // out to 60 degrees
+constexpr int kDistanceBins = 10;  // out to 60 degrees
 
 double mean_size(const RobustRows& rows) {
   return std::sqrt(rows.weight.dot(rows.data.cwiseAbs2()) / std::max(1e-300, rows.weight.sum()));
 }
 
 // The unconstrained solution of the free unknowns, the others 0.
-Unknowns solved(const UnknownsMatrix& h, const Unknowns& g, const Flags& free) {
+Unknowns solved(const UnknownsMatrix& h, const Unknowns& g, const UnknownFlags& free) {
   UnknownsMatrix matrix = UnknownsMatrix::Identity();
   Unknowns right = Unknowns::Zero();
   for (int i = 0; i < kUnknowns; ++i) {
@@ -51,7 +51,7 @@ Unknowns non_negative_solution(const UnknownsMatrix& h, const Unknowns& g) {
   const Unknowns right = unit.cwiseProduct(g);
   const double enough = kEnough * right.cwiseAbs().maxCoeff();
   Unknowns x = Unknowns::Zero();
-  Flags free = Flags::Constant(false);
+  UnknownFlags free = UnknownFlags::Constant(false);
   for (int round = 0; round < 3 * kUnknowns; ++round) {
     const Unknowns gain = right - matrix * x;
     int best = -1;
@@ -95,7 +95,7 @@ RowsFit fit_rows(const RobustRows& rows, const Eigen::VectorXd& light) {
   const double each = rows.independent / std::max(1e-300, rows.weight.sum());
   RowsFit fit;
   fit.influence = rows.bound.select(0.0, rows.weight);
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kWeightRounds; ++round) {
     const Eigen::Matrix<double, Eigen::Dynamic, kUnknowns> weighted =
         (each / spread * fit.influence).asDiagonal() * columns;
     UnknownsMatrix h = columns.transpose() * weighted;
@@ -141,11 +141,11 @@ double independent_rows(const RobustRows& rows, const Eigen::VectorXd& residual,
   const Eigen::VectorXd weight = rows.bound.select(0.0, rows.weight);
   const Eigen::VectorXd held =
       weight.cwiseProduct(residual.cwiseMax(-kMostScales * rows.scale).cwiseMin(kMostScales * rows.scale));
-  std::array<float, kBins> least{};
-  for (int k = 0; k < kBins; ++k)
+  std::array<float, kDistanceBins> least{};
+  for (int k = 0; k < kDistanceBins; ++k)
     least[static_cast<std::size_t>(k)] = static_cast<float>(std::cos(radians(kBinDeg * (k + 1))));
-  std::array<double, kBins> products{};
-  std::array<double, kBins> weights{};
+  std::array<double, kDistanceBins> products{};
+  std::array<double, kDistanceBins> weights{};
   for (Eigen::Index i = 1; i < n; ++i) {
     const Eigen::VectorXf cosines = normals.topRows(i) * normals.row(i).transpose();
     for (Eigen::Index j = 0; j < i; ++j) {
@@ -161,7 +161,7 @@ double independent_rows(const RobustRows& rows, const Eigen::VectorXd& residual,
   const double sum = weight.sum();
   const double variance = own / std::max(1e-300, sum);
   double alike = weight.squaredNorm();
-  for (std::size_t bin = 0; bin < kBins && variance > 0; ++bin) {
+  for (std::size_t bin = 0; bin < kDistanceBins && variance > 0; ++bin) {
     if (products[bin] < 0) break;
     alike += products[bin] / variance;
   }
