@@ -1,6 +1,7 @@
+#include "faceprobe/lighting/rate_main_lights.h"
+
 #include "faceprobe/core/angles.h"
 #include "faceprobe/core/color.h"
-#include "faceprobe/lighting/main_lights.h"
 #include "lighting/horizon_profile.h"
 #include "lighting/skin_of.h"
 
@@ -15,7 +16,7 @@ namespace faceprobe::lighting {
 
 namespace {
 
-constexpr double kIndependentPatches = 20;  // ESTIMATE, see main_lights.h
+constexpr double kIndependentPatches = 20;  // ESTIMATE, see the header
 constexpr double kLeastResidual = 0.01;     // exact data are no proof of exact normals
 constexpr double kStepRad = 0.035;          // of the differences that stand for derivatives: 2 degrees
 constexpr double kPi2 = kPi / 2;

@@ -3,6 +3,7 @@
 #include "faceprobe/core/color.h"
 #include "faceprobe/core/region.h"
 #include "faceprobe/core/sh.h"
+#include "faceprobe/lighting/rate_main_lights.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
+#include "faceprobe/lighting/rate_main_lights.h"
 #include "faceprobe/core/color.h"
 #include "faceprobe/core/microfacet.h"
-#include "faceprobe/lighting/main_lights.h"
 #include "synthetic_face.h"
 
 #include <gtest/gtest.h>
