@@ -4,8 +4,7 @@
 #
 #   bench/speed.sh [--photo FILE] [--runs N] [BUILD_DIR]
 #
-# BUILD_DIR (build/release) holds bin/faceprobe; bench_enlarge may also be in build/test. Not for a build with training
-# (FACEPROBE_TRAIN): loading libtorch would be most of what is measured.
+# BUILD_DIR (build/release) holds bin/faceprobe; bench_enlarge may also be in build/test.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)

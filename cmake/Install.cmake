@@ -42,6 +42,9 @@ if(TARGET _faceprobe AND NOT SKBUILD)
 endif()
 
 install(TARGETS faceprobe RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT faceprobe)
+if(TARGET faceprobe_torch_side)
+  install(TARGETS faceprobe_torch_side LIBRARY DESTINATION ${FACEPROBE_PRIVATE_LIBDIR} COMPONENT faceprobe)
+endif()
 install(FILES ${FACEPROBE_DEPS_DIR}/tflite/libtensorflowlite_c.so DESTINATION ${FACEPROBE_PRIVATE_LIBDIR} COMPONENT faceprobe)
 install(FILES
   ${FACEPROBE_DEPS_DIR}/data/face_landmark.tflite

@@ -4,6 +4,7 @@
 #include "eval_stages.h"
 #include "faceprobe/core/error.h"
 #include "progress.h"
+#include "torch_side.h"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -16,6 +17,10 @@ std::pair<std::string, std::string> name_and_file(const std::string& named) {
   const std::size_t equals = named.find('=');
   if (equals == std::string::npos) return {std::filesystem::path(named).stem().string(), named};
   return {named.substr(0, equals), named.substr(equals + 1)};
+}
+
+void refuse_missing_device(const std::string& device) {
+  if (device != "auto" && device != "cpu") torch_side().device_from_name(device);
 }
 
 std::function<void(int, int)> eval_progress() {

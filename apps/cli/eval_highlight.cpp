@@ -42,9 +42,9 @@ std::string report(const eval::ScoreTable& table, const EvalOptions& options) {
 int eval_highlight(const EvalOptions& options) {
   const synth::ShardReader faces(options.data);
   std::vector<eval::HighlightMethod> methods = classical_highlight_methods(options.threads);
-  const net::Device device = net::device_from_name(options.device);
+  refuse_missing_device(options.device);
   for (const std::string& weights : options.weights)
-    methods.push_back(network_highlight_method(weights, device, options.threads));
+    methods.push_back(network_highlight_method(weights, options.device, options.threads));
   eval::ScoreTable table = eval::measure_highlights(
       faces, methods, {.samples = options.samples, .threads = options.threads, .progress = eval_progress()});
   if (!options.weights.empty()) table.compare_with(methods.back().name);  // the network named last

@@ -4,7 +4,7 @@
 #include "faceprobe/io/data_files.h"
 #include "faceprobe/lighting/albedo.h"
 #include "faceprobe/net/face_net.h"
-#include "faceprobe/net/torch_shading_net.h"
+#include "torch_side.h"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -60,25 +60,25 @@ eval::ShadingEstimate estimate_of(net::ShadingLayers layers) {
 }
 
 // The paper's way: highlights off first.
-eval::ShadingMethod of_diffuse(const std::string& name, const std::shared_ptr<net::TorchShadingNet>& net,
+eval::ShadingMethod of_diffuse(const std::string& name, const PictureSplit& net,
                                const std::shared_ptr<net::FaceNet>& highlights) {
   return {name, [net, highlights](const eval::PhotoInput& input) {
             const net::FaceLayers seen =
                 highlights->layers_both_ways(input.linear, input.clip, input.mask, input.mesh_normal_cam);
-            return estimate_of(net->layers(difference(input.linear, seen.highlight)));
+            return estimate_of(net.layers(difference(input.linear, seen.highlight)));
           }};
 }
 
-eval::ShadingMethod of_photo(const std::string& name, const std::shared_ptr<net::TorchShadingNet>& net) {
-  return {name, [net](const eval::PhotoInput& input) { return estimate_of(net->layers(input.linear)); }};
+eval::ShadingMethod of_photo(const std::string& name, const PictureSplit& net) {
+  return {name, [net](const eval::PhotoInput& input) { return estimate_of(net.layers(input.linear)); }};
 }
 
 // Rows of networks that split a picture, and the face network whose highlights come off for those that want a diffuse layer: the first that is
 // named, else the program's.
 class Rows {
  public:
-  explicit Rows(const EvalOptions& options)
-      : threads_(options.threads), device_(net::device_from_name(options.device)) {
+  explicit Rows(const EvalOptions& options) : threads_(options.threads), device_(options.device) {
+    refuse_missing_device(device_);
     for (const std::string& weights : options.weights) add(weights);
     for (const auto& [name, net] : diffuse_) {
       if (!face_.second) load_face("net", io::data_file("face.safetensors").string());
@@ -93,9 +93,9 @@ class Rows {
     const auto [name, file] = name_and_file(weights);
     const std::string architecture = net::read_model_info(file).architecture;
     if (architecture == net::kAlbedoShadingArchitecture || architecture == net::kShiArchitecture) {
-      const auto net = std::make_shared<net::TorchShadingNet>(
-          file, net::TorchShadingNetOptions{.threads = threads_, .device = device_});
-      if (net->takes_diffuse()) {
+      const TorchSide& torch = torch_side();
+      const PictureSplit net = torch.shading_net(file, {.threads = threads_, .device = torch.device_from_name(device_)});
+      if (net.takes_diffuse) {
         diffuse_.emplace_back(name, net);
       } else {
         methods_.push_back(of_photo(name, net));
@@ -114,10 +114,10 @@ class Rows {
   }
 
   int threads_;
-  net::Device device_;
+  std::string device_;
   std::vector<eval::ShadingMethod> methods_ = {eval::one_albedo_method()};
   std::pair<std::string, std::shared_ptr<net::FaceNet>> face_;
-  std::vector<std::pair<std::string, std::shared_ptr<net::TorchShadingNet>>> diffuse_;
+  std::vector<std::pair<std::string, PictureSplit>> diffuse_;
 };
 
 }  // namespace

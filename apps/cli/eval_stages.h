@@ -53,6 +53,9 @@ eval::ScoreTable measure_lamps(const synth::ShardReader& groups, const EvalOptio
 
 // NAME=FILE as that pair; of FILE alone its stem is the name.
 std::pair<std::string, std::string> name_and_file(const std::string& named);
+// For a device that is not there, even where nothing would run on it; the usual ones are not worth loading libtorch for. Throws Error(kUsage),
+// Error(kDevice).
+void refuse_missing_device(const std::string& device);
 // Counts on a terminal, else says nothing.
 std::function<void(int done, int total)> eval_progress();
 

@@ -2,8 +2,8 @@
 #include "faceprobe/core/error.h"
 #include "faceprobe/io/data_files.h"
 #include "faceprobe/io/picture_file.h"
-#include "faceprobe/train/finetune.h"
 #include "json_line.h"
+#include "torch_side.h"
 
 #include <spdlog/spdlog.h>
 
@@ -100,7 +100,7 @@ int run(Options options) {
   hooks.write_picture = [](const std::filesystem::path& path, const ByteImage& picture) {
     io::write_picture(path, picture);
   };
-  const train::FinetuneReport report = train::finetune_highlight(run, hooks);
+  const train::FinetuneReport report = torch_side().finetune_highlight(run, hooks);
   if (options.json) {
     print_json(report, std::chrono::steady_clock::now() - start);
   } else if (report.finished) {

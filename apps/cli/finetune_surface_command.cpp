@@ -1,6 +1,6 @@
 #include "commands.h"
-#include "faceprobe/train/finetune_surface.h"
 #include "json_line.h"
+#include "torch_side.h"
 
 #include <spdlog/spdlog.h>
 
@@ -113,7 +113,7 @@ int run(const SurfaceOptions& options) {
         row.step, steps, row.residual, row.albedo, row.lights, row.guards, row.synthetic_loss);
   };
   hooks.stop = [] { return surface_interrupted.load(); };
-  const train::FinetuneSurfaceReport report = train::finetune_surface(run, hooks);
+  const train::FinetuneSurfaceReport report = torch_side().finetune_surface(run, hooks);
   if (options.json) {
     print_json(report, std::chrono::steady_clock::now() - start);
   } else {

@@ -3,9 +3,8 @@
 #include "eval_stages.h"
 #include "faceprobe/highlight/separate.h"
 #include "faceprobe/highlight/skin_subspace.h"
-#include "faceprobe/net/both_ways.h"
 #include "faceprobe/net/face_net.h"
-#include "faceprobe/net/torch_highlight_net.h"
+#include "torch_side.h"
 
 #include <memory>
 
@@ -34,7 +33,7 @@ std::vector<eval::HighlightMethod> classical_highlight_methods(int threads) {
   return methods;
 }
 
-eval::HighlightMethod network_highlight_method(const std::string& named, const net::Device& device, int threads) {
+eval::HighlightMethod network_highlight_method(const std::string& named, const std::string& device, int threads) {
   const auto [name, file] = name_and_file(named);
   // Both ways, as estimate does.
   if (net::read_model_info(file).architecture == net::kFaceArchitecture) {
@@ -43,11 +42,9 @@ eval::HighlightMethod network_highlight_method(const std::string& named, const n
               return face->layers_both_ways(input.linear, input.clip, input.mask, input.mesh_normal_cam).highlight;
             }};
   }
-  auto net = std::make_shared<net::TorchHighlightNet>(
-      file, net::TorchHighlightNetOptions{.threads = threads, .device = device});
-  return {name, [net](const eval::PhotoInput& input) {
-            return net::highlight_both_ways(*net, input.linear, input.clip, input.mask);
-          }};
+  const TorchSide& torch = torch_side();
+  const HighlightLayer net = torch.highlight_net(file, {.threads = threads, .device = torch.device_from_name(device)});
+  return {name, [net](const eval::PhotoInput& input) { return net(input.linear, input.clip, input.mask); }};
 }
 
 }  // namespace faceprobe::cli

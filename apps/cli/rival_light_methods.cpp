@@ -2,9 +2,9 @@
 
 #include "faceprobe/assets/maps.h"
 #include "faceprobe/core/resample.h"
-#include "faceprobe/net/light_regressor.h"
-#include "faceprobe/net/sky_regressor.h"
+#include "faceprobe/net/face_window.h"
 #include "faceprobe/train/map_crops.h"
+#include "torch_side.h"
 
 #include <map>
 #include <memory>
@@ -46,20 +46,19 @@ class Backgrounds {
   std::vector<EnvMap> maps_;
 };
 
-template <class Network>
-eval::LightMethod of_background(const std::string& name, const std::shared_ptr<Network>& network,
+eval::LightMethod of_background(const std::string& name, const PictureLight& light,
                                 const std::shared_ptr<Backgrounds>& scenes) {
-  return {name, [network, scenes](const eval::LightInput& input) -> Eigen::MatrixX3f {
+  return {name, [light, scenes](const eval::LightInput& input) -> Eigen::MatrixX3f {
             const std::optional<Image> crop = scenes->behind(input);
-            return crop ? network->light(*crop) : Eigen::MatrixX3f();
+            return crop ? light(*crop) : Eigen::MatrixX3f();
           }};
 }
 
-eval::LightMethod of_face(const std::string& name, const std::shared_ptr<net::LightRegressor>& network) {
+eval::LightMethod of_face(const std::string& name, const SizedPictureLight& network) {
   return {name, [network](const eval::LightInput& input) -> Eigen::MatrixX3f {
-            const std::optional<Window> window = net::face_window(input.photo.mask, network->picture_px());
+            const std::optional<Window> window = net::face_window(input.photo.mask, network.picture_px);
             if (!window) return {};
-            return network->light(resampled(input.photo.linear, *window, Outside::kEdge));
+            return network.light(resampled(input.photo.linear, *window, Outside::kEdge));
           }};
 }
 
@@ -90,11 +89,11 @@ std::optional<FaceLightMethod> face_network_method(const fs::path& weights, std:
   const std::optional<fs::path> file = weights_of(weights, kLegendre, kLegendreFile, missing);
   if (!file) return std::nullopt;
   return FaceLightMethod{
-      kLegendre, [network = std::make_shared<net::LightRegressor>(*file)](const FaceSeen& seen) -> Eigen::MatrixX3f {
+      kLegendre, [network = torch_side().light_regressor(*file)](const FaceSeen& seen) -> Eigen::MatrixX3f {
         const face::FaceGeometry& geometry = seen.face.geometry;
-        const std::optional<Window> window = net::face_window(geometry.region, network->picture_px());
+        const std::optional<Window> window = net::face_window(geometry.region, network.picture_px);
         if (!window) return {};
-        return network->light(resampled(seen.linear, in_photo(*window, geometry.crop), Outside::kEdge));
+        return network.light(resampled(seen.linear, in_photo(*window, geometry.crop), Outside::kEdge));
       }};
 }
 
@@ -105,16 +104,12 @@ RivalMethods rival_light_methods(const RivalRows& rows) {
   const std::optional<fs::path> sky = of(kHoldGeoffroy, "sky.safetensors");
   if (gardner || sky) {
     const auto scenes = std::make_shared<Backgrounds>(rows.maps, rows.recipe);
-    if (gardner) {
-      found.methods.push_back(of_background(kGardner, std::make_shared<net::LightRegressor>(*gardner), scenes));
-    }
-    if (sky) {
-      found.methods.push_back(
-          of_background(kHoldGeoffroy, std::make_shared<net::SkyRegressor>(*sky, rows.threads), scenes));
-    }
+    if (gardner) found.methods.push_back(of_background(kGardner, torch_side().light_regressor(*gardner).light, scenes));
+    if (sky)
+      found.methods.push_back(of_background(kHoldGeoffroy, torch_side().sky_regressor(*sky, rows.threads), scenes));
   }
   if (const auto legendre = of(kLegendre, kLegendreFile))
-    found.methods.push_back(of_face(kLegendre, std::make_shared<net::LightRegressor>(*legendre)));
+    found.methods.push_back(of_face(kLegendre, torch_side().light_regressor(*legendre)));
   return found;
 }
 

@@ -1,20 +1,20 @@
 #include "shading_split.h"
 
 #include "faceprobe/core/error.h"
-#include "faceprobe/net/torch_shading_net.h"
+#include "torch_side.h"
 
-#include <memory>
+#include <utility>
 
 namespace faceprobe::cli {
 
 pipeline::ShadingSplit split_by_weights(const std::string& path, int threads) {
-  const auto network = std::make_shared<net::TorchShadingNet>(path, net::TorchShadingNetOptions{.threads = threads});
-  if (!network->takes_diffuse()) {
-    throw Error(ExitCode::kModel, path + " holds the network \"" + network->info().architecture +
+  PictureSplit network = torch_side().shading_net(path, {.threads = threads});
+  if (!network.takes_diffuse) {
+    throw Error(ExitCode::kModel, path + " holds the network \"" + network.architecture +
                                       "\", which wants the photo with its highlights; --shading-weights takes "
                                       "albedo_shading, which wants the diffuse layer.");
   }
-  return [network](const Image& diffuse) { return network->layers(diffuse).shading; };
+  return [layers = std::move(network.layers)](const Image& diffuse) { return layers(diffuse).shading; };
 }
 
 }  // namespace faceprobe::cli

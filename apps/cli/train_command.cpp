@@ -2,8 +2,8 @@
 #include "faceprobe/core/error.h"
 #include "faceprobe/io/data_files.h"
 #include "faceprobe/io/picture_file.h"
-#include "faceprobe/train/train.h"
 #include "json_line.h"
+#include "torch_side.h"
 #include "train_light_command.h"
 #ifndef FACEPROBE_LEAN
 #include "train_regressor_command.h"
@@ -93,7 +93,7 @@ int run(Options options) {
                                       "\", which is not of the network to train, " + options.net +
                                       ". Name face for \"face\", highlight for the others.");
   }
-  options.run.device = net::device_from_name(options.device);
+  options.run.device = torch_side().device_from_name(options.device);
   std::signal(SIGINT, [](int) { interrupted = true; });
   std::signal(SIGTERM, [](int) { interrupted = true; });
   train::TrainHooks hooks;
@@ -102,7 +102,7 @@ int run(Options options) {
   hooks.write_picture = [](const std::filesystem::path& path, const ByteImage& picture) {
     io::write_picture(path, picture);
   };
-  const train::TrainReport report = train::train_highlight(options.run, hooks);
+  const train::TrainReport report = torch_side().train_highlight(options.run, hooks);
   if (options.json) {
     print_json_line({{"finished", report.finished},
                      {"steps", report.rows.empty() ? 0 : report.rows.back().step},

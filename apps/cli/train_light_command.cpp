@@ -1,7 +1,7 @@
 #include "train_light_command.h"
 
 #include "faceprobe/core/error.h"
-#include "faceprobe/train/train_light.h"
+#include "torch_side.h"
 
 #include <spdlog/spdlog.h>
 
@@ -20,7 +20,7 @@ int train_light(const train::TrainRun& options, const std::vector<std::string>& 
   run.validation_data = options.validation_data;
   run.folder = options.folder;
   run.threads = options.threads;
-  const train::LightReport report = train::train_light(run, [](const train::LightRow& row, int epochs) {
+  const train::LightReport report = torch_side().train_light(run, [](const train::LightRow& row, int epochs) {
     spdlog::info("epoch {} of {}: diffuse {:.4f}, shape {:.4f}, glossy {:.3f}; validation {:.4f}, {:.4f}, {:.3f}",
                  row.epoch, epochs, row.training.diffuse, row.training.shape, row.training.glossy,
                  row.validation.diffuse, row.validation.shape, row.validation.glossy);

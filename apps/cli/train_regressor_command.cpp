@@ -1,8 +1,8 @@
 #include "train_regressor_command.h"
 
 #include "faceprobe/core/error.h"
-#include "faceprobe/train/train_regressor.h"
 #include "scene_maps.h"
+#include "torch_side.h"
 
 #include <spdlog/spdlog.h>
 
@@ -49,13 +49,13 @@ int train_gardner(const train::TrainRun& options, const std::string& config, con
   const train::RegressorRun run = regressor_run(options, config, train::gardner_config());
   const train::GardnerData data{.training = indoor_maps(options.data, scenes),
                                 .validation = indoor_maps(options.validation_data, scenes)};
-  return finish(train::train_gardner(data, run, log_regressor_row));
+  return finish(torch_side().train_gardner(data, run, log_regressor_row));
 }
 
 int train_legendre(const train::TrainRun& options, const std::string& config) {
   const train::RegressorRun run = regressor_run(options, config, train::legendre_config());
   const train::LegendreData data{.training = options.data, .validation = options.validation_data};
-  return finish(train::train_legendre(data, run, log_regressor_row));
+  return finish(torch_side().train_legendre(data, run, log_regressor_row));
 }
 
 }  // namespace faceprobe::cli

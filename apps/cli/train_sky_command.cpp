@@ -1,8 +1,8 @@
 #include "train_sky_command.h"
 
 #include "faceprobe/core/error.h"
-#include "faceprobe/train/train_sky.h"
 #include "scene_maps.h"
+#include "torch_side.h"
 
 #include <spdlog/spdlog.h>
 
@@ -20,7 +20,7 @@ int train_sky(const train::TrainRun& options, const std::string& config, const s
   run.validation_maps = load_scene_maps(options.validation_data, scenes, SceneKind::kOutdoorByDay);
   run.folder = options.folder;
   run.threads = options.threads;
-  const train::SkyReport report = train::train_sky(run, [](const train::SkyRow& row, int epochs) {
+  const train::SkyReport report = torch_side().train_sky(run, [](const train::SkyRow& row, int epochs) {
     spdlog::info("epoch {} of {}: sun {:.3f}, numbers {:.3f}; validation {:.3f}, {:.3f}, sun off by {:.1f} degrees",
                  row.epoch, epochs, row.training.sun, row.training.numbers, row.validation.sun, row.validation.numbers,
                  row.validation.median_deg);

@@ -6,7 +6,7 @@
 #include "faceprobe/core/parallel.h"
 #include "faceprobe/core/random.h"
 #include "faceprobe/core/sphere_grid.h"
-#include "faceprobe/net/light_regressor.h"
+#include "faceprobe/net/face_window.h"
 #include "faceprobe/synth/photo_layers.h"
 #include "faceprobe/synth/shard.h"
 #include "faceprobe/train/map_crops.h"

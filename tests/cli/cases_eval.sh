@@ -28,6 +28,22 @@ expect_ended() {
   fail "process $1 was left behind"
 }
 
+# Nothing but training and the networks that it alone runs pays for libtorch.
+case_libtorch_on_demand() {
+  LD_TRACE_LOADED_OBJECTS=1 "$faceprobe" >libraries
+  grep -q libdnnl libraries || fail "the libraries were not listed"
+  ! grep -qE "libtorch|libc10" libraries || fail "libtorch is loaded at every start"
+  # A program that was taken away from its module does the rest, and says what it lacks.
+  mkdir bin
+  cp "$faceprobe" bin/faceprobe
+  local faceprobe=$work/bin/faceprobe
+  expect_exit 0 info "$photo"
+  expect_refused 7 "needs libtorch" train light --data nowhere -o run
+  expect_stderr "faceprobe_torch_side.so"
+  expect_refused 7 "needs libtorch" estimate "$photo" -o run --shading-weights nowhere.safetensors
+  [ ! -e run ] || fail "a refusal left a folder"
+}
+
 case_eval_cases() {
   write_cases_and_methods
   # Names that a shell would take for commands, options or lines, and that are placeholders themselves.

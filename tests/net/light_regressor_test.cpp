@@ -2,6 +2,7 @@
 
 #include "faceprobe/core/color.h"
 #include "faceprobe/core/sphere_grid.h"
+#include "faceprobe/net/face_window.h"
 #include "net/fixtures.h"
 #include "net/torch/light_cnn.h"
 #include "net/torch/picture_tensors.h"

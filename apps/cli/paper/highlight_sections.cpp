@@ -29,7 +29,7 @@ struct Methods {
 
 Methods methods_of(const PaperPlan& plan) {
   Methods methods{classical_highlight_methods(plan.threads), {}};
-  const net::Device device = net::device_from_name("auto");
+  const std::string device = "auto";
   for (const NamedNetwork& rival : kRivals) {
     const std::filesystem::path file = plan.rivals / rival.file;
     if (!plan.rivals.empty() && std::filesystem::exists(file)) {

@@ -4,6 +4,7 @@
 #include "faceprobe/io/atomic_file.h"
 #include "faceprobe/io/data_files.h"
 #include "paper/folder_listing.h"
+#include "torch_side.h"
 
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -53,7 +54,7 @@ std::string identity_of_data(const PaperPlan& plan) {
 
 std::string key_of(const PaperPlan& plan, const std::string& data, std::span<const char* const> rivals,
                    const std::string& programs) {
-  std::string text = hash_of_file("/proc/self/exe");
+  std::string text = hash_of_file("/proc/self/exe") + hash_of_file(torch_side_file());
   for (const char* name : {"face.safetensors", "light.safetensors"}) text += hash_of_file(io::data_file(name));
   text += data;
   for (const char* rival : rivals) {

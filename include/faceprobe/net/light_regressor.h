@@ -4,7 +4,7 @@
 //
 // "gardner": Gardner et al. 2017, "Learning to predict indoor illumination from a single image". Sees a part of a scene's background and
 // says the panorama around the camera, by one head its colours and by another its lights.
-// "legendre": LeGendre et al. 2020, "Learning illumination from diverse portraits", without its adversary. Sees a face's crop.
+// "legendre": LeGendre et al. 2020, "Learning illumination from diverse portraits", without its adversary. Sees a face's crop (face_window.h).
 //
 // For light by what a face's pixels say, see pipeline/estimate.h. In builds with -DFACEPROBE_TRAIN=ON.
 //
@@ -13,22 +13,16 @@
 //   if (window) light = rival.light(resampled(linear, *window, Outside::kEdge));   // cells of SphereGrid(16) x 3
 
 #include "faceprobe/core/image.h"
-#include "faceprobe/core/resample.h"
 #include "faceprobe/net/model_file.h"
 
 #include <Eigen/Core>
 #include <filesystem>
 #include <memory>
-#include <optional>
 
 namespace faceprobe::net {
 
 inline constexpr const char* kGardnerArchitecture = "gardner";
 inline constexpr const char* kLegendreArchitecture = "legendre";
-
-// The square around a face's mask (H x W x 1, its pixels not zero) with a margin, at a side of `px`: what "legendre" has learnt to look at.
-// Nothing where the mask is empty. It may reach beyond the picture.
-std::optional<Window> face_window(const ByteImage& mask, int px);
 
 class LightRegressor {
  public:

@@ -2,7 +2,7 @@
 
 #include "faceprobe/core/color.h"
 #include "faceprobe/core/error.h"
-#include "faceprobe/core/pixel_box.h"
+#include "faceprobe/core/resample.h"
 #include "faceprobe/core/sphere_grid.h"
 #include "faceprobe/io/safetensors.h"
 #include "io/safetensors_header.h"
@@ -33,14 +33,6 @@ Eigen::MatrixX3f cells_of_panorama(const torch::Tensor& radiance, const SphereGr
 }
 
 }  // namespace
-
-std::optional<Window> face_window(const ByteImage& mask, int px) {
-  constexpr double kMargin = 0.15;  // of the longer side, on each
-  const std::optional<PixelBox> box = box_of(mask);
-  if (!box) return std::nullopt;
-  const double side = (1 + 2 * kMargin) * std::max(box->width(), box->height());
-  return Window{(box->left + box->right - side) / 2, (box->top + box->bottom - side) / 2, px / side, px, px};
-}
 
 struct LightRegressor::Impl {
   LightCnnOptions options;
