@@ -24,9 +24,9 @@ TEST(Transport, LightsAnywhereAreSeenAsCellsAre) {
   const Transport cells = build_transport(face, grid);
   const Eigen::MatrixX3f some = grid.directions().middleRows(20, 30);
   const Transport lights = build_transport(face, some, 2 * static_cast<float>(grid.cell_solid_angle()));
-  ASSERT_GT(lights.highlight.maxCoeff(), 0);
-  EXPECT_TRUE(lights.highlight.isApprox(2 * cells.highlight.middleCols(20, 30), 1e-5F));
-  EXPECT_TRUE(lights.diffuse.isApprox(2 * cells.diffuse.middleCols(20, 30), 1e-5F));
+  ASSERT_GT(lights.highlight().maxCoeff(), 0);
+  EXPECT_TRUE(lights.highlight().isApprox(2 * cells.highlight().middleCols(20, 30), 1e-5F));
+  EXPECT_TRUE(lights.diffuse().isApprox(2 * cells.diffuse().middleCols(20, 30), 1e-5F));
 }
 
 TEST(Transport, MirrorLightPeaksInTheMirrorDirection) {
