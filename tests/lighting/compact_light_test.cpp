@@ -199,8 +199,8 @@ TEST(CompactLight, AShadowTellsWhereTheSunStands) {
   }
   light_up(face, grid, sky_and_ground(grid));
   const Transport sun = build_transport(face, Eigen::MatrixX3f(towards.cast<float>().transpose()), 1);
-  face.highlight += sun.highlight.col(0).replicate(1, 3);
-  face.shading += sun.diffuse.col(0).replicate(1, 3);
+  face.highlight += sun.highlight().col(0).replicate(1, 3);
+  face.shading += sun.diffuse().col(0).replicate(1, 3);
   const Light light = solve(face, with_compact_light());
   ASSERT_TRUE(light.compact);
   EXPECT_LT(angle_between_deg(light.compact->direction, towards),
