@@ -3,7 +3,6 @@
 #include "faceprobe/core/error.h"
 #include "faceprobe/face/canonical_mesh.h"
 #include "faceprobe/io/data_files.h"
-#include "faceprobe/io/data_files.h"
 #include "faceprobe/io/photo.h"
 #include "faceprobe/pipeline/estimate.h"
 #include "pipeline/mask_head.h"

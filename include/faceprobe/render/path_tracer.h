@@ -46,7 +46,7 @@ struct Ground {
 
 // A small near light: a ball that shines evenly and lets all other light through. Not seen itself by the camera.
 struct BallLamp {
-  Eigen::Vector3f position_m = Eigen::Vector3f::Zero();
+  Eigen::Vector3f position_m = Eigen::Vector3f::Zero();  // its centre, camera frame
   float radius_m = 0.05F;
   Eigen::Vector3f intensity =
       Eigen::Vector3f::Ones();  // radiance x projected area: irradiance at distance r is intensity / r^2
