@@ -181,7 +181,7 @@ double shared_gain(const std::vector<double>& gains) {
   std::vector<Eigen::VectorXd> logs;
   for (const double gain : gains) {
     if (!(gain > 0 && std::isfinite(gain))) throw std::invalid_argument("Gains must be above 0 and finite.");
-    logs.push_back(Eigen::VectorXd::Constant(1, std::log(gain)));
+    logs.emplace_back(Eigen::VectorXd::Constant(1, std::log(gain)));
   }
   return std::exp(robust_mean(logs, std::vector<double>(logs.size(), kGainDeviation)).mean[0]);
 }
