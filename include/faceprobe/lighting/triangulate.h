@@ -25,13 +25,15 @@ struct FaceLights {
 };
 
 struct TriangulateOptions {
-  double direction_error_deg = 8;   // standard deviation of a light's direction
+  // Standard deviation of a light's direction. ESTIMATE, like least_gain chosen on the synthetic groups of docs/training.md: lights that are found near
+  // a lamp are about so far off it.
+  double direction_error_deg = 12;
   double log_strength_error = 0.5;  // standard deviation of the logarithm of its irradiance: skins are of unknown albedo
   double max_colour_deg = 12;       // between the colours of what may be one lamp
   double max_miss_deg = 20;         // of a face's light from where the lamp should be seen
   double least_m = 0.3, most_m = 20;  // of a lamp from each face that sees it
   // A lamp is near when that explains the lights so much better: least gain of the sum of squared deviations over a distant one.
-  double least_gain = 4;
+  double least_gain = 2;
 
   std::string validate() const;
 };
