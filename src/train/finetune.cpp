@@ -51,8 +51,8 @@ DescentOptions finetune_descent(const FinetuneConfig& config) {
 class Finetuning {
  public:
   Finetuning(const FinetuneRun& run, const FinetuneHooks& hooks)
-      : run_(run), hooks_(hooks), people_(split_people(run.people, run.config)), faces_config_(faces_config_of(run)),
-        model_(load_model(run.start)), before_(load_model(run.start)),
+      : run_(run), hooks_(hooks), people_(split_people(run.people, run.config.seed, run.config.held_out_share)),
+        faces_config_(faces_config_of(run)), model_(load_model(run.start)), before_(load_model(run.start)),
         descent_(model_.module, finetune_descent(run.config)) {
     before_.module->eval();
     model_.module->train();

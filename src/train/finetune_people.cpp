@@ -15,14 +15,14 @@ constexpr Eigen::Index kLeastSkin = 200;  // pixels of the square that a group o
 
 }  // namespace
 
-SplitPeople split_people(const std::vector<PersonSet>& people, const FinetuneConfig& config) {
+SplitPeople split_people(const std::vector<PersonSet>& people, std::uint64_t seed, double held_out_share) {
   SplitPeople split;
   for (const PersonSet& person : people) {
     // By name, so that a person of two folders of that name is on one side.
     const std::string name = person.name.substr(person.name.rfind('/') + 1);
     std::uint64_t key = 0;
     for (const char c : name) key = key * 131 + static_cast<std::uint64_t>(std::tolower(static_cast<unsigned char>(c)));
-    const bool held_out = Random({config.seed, 0x9E0, key}).uniform() < config.held_out_share;
+    const bool held_out = Random({seed, 0x9E0, key}).uniform() < held_out_share;
     (held_out ? split.held_out : split.trained).push_back(&person);
   }
   if (split.trained.empty() || split.held_out.empty()) {

@@ -1,7 +1,7 @@
 #pragma once
 // Internal: which people finetuning learns from and which it is measured on, and groups of a person's photos.
 //
-//   const SplitPeople people = split_people(run.people, config);
+//   const SplitPeople people = split_people(run.people, config.seed, config.held_out_share);
 //   const std::vector<int> chosen = drawn_photos(person, config.photos, random);
 //   const std::optional<PersonPhotos> group = group_of(person, chosen, person_loss_options(config));
 
@@ -9,6 +9,7 @@
 #include "faceprobe/train/finetune.h"
 #include "train/person_loss.h"
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -18,7 +19,7 @@ struct SplitPeople {
   std::vector<const PersonSet*> trained, held_out;
 };
 // By seed and name, so that a person is on the same side whoever else there is. Throws Error(kInput) when a side is empty.
-SplitPeople split_people(const std::vector<PersonSet>& people, const FinetuneConfig& config);
+SplitPeople split_people(const std::vector<PersonSet>& people, std::uint64_t seed, double held_out_share);
 
 PersonLossOptions person_loss_options(const FinetuneConfig& config);
 

@@ -3,20 +3,19 @@
 #include "faceprobe/core/angles.h"
 #include "faceprobe/core/error.h"
 #include "faceprobe/core/parallel.h"
-#include "faceprobe/core/permutation.h"
 #include "faceprobe/core/random.h"
 #include "faceprobe/io/atomic_file.h"
 #include "faceprobe/net/model_file.h"
 #include "net/torch/weights.h"
 #include "train/batch.h"
 #include "train/face_loss.h"
+#include "train/finetune_people.h"
 #include "train/model.h"
 #include "train/schedule.h"
 #include "train/surface_photo.h"
 #include "train/validate.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -29,36 +28,14 @@ namespace {
 
 constexpr std::int64_t kSurfaceRowEvery = 10;  // steps
 
-// Different numbers below `available`, in an order by chance.
-std::vector<std::size_t> some_of(std::size_t available, int count, Random random) {
-  const std::vector<int> order = permutation(static_cast<int>(available), random);
-  const std::size_t taken = std::min(available, static_cast<std::size_t>(count));
-  return {order.begin(), order.begin() + static_cast<std::ptrdiff_t>(taken)};
-}
-
-// By name, so that a person of two folders of that name is on one side.
-bool is_held_out(const PersonSet& person, const FinetuneSurfaceConfig& config) {
-  std::uint64_t key = 0;
-  for (const char c : person.name.substr(person.name.rfind('/') + 1))
-    key = key * 131 + static_cast<std::uint64_t>(std::tolower(static_cast<unsigned char>(c)));
-  return Random({config.seed, 0x9E0, key}).uniform() < config.held_out_share;
-}
-
 class SurfaceFinetuning {
  public:
   SurfaceFinetuning(const FinetuneSurfaceRun& run, const FinetuneSurfaceHooks& hooks)
       : run_(run), hooks_(hooks), config_(face_config_of(run.start)), model_(face_model(config_, run.start)),
+        people_(split_people(run.people, run.config.seed, run.config.held_out_share)),
         looker_(model_, config_, run.start),
         optimizer_(model_.module->parameters(),
                    torch::optim::AdamWOptions(run.config.learning_rate).betas({0.9, 0.99}).weight_decay(0)) {
-    for (const PersonSet& person : run.people)
-      (is_held_out(person, run.config) ? held_out_ : trained_).push_back(&person);
-    if (trained_.empty() || held_out_.empty()) {
-      throw Error(ExitCode::kInput, "Of " + std::to_string(run.people.size()) + " people with enough photos " +
-                                        std::to_string(held_out_.size()) + " would be held out and " +
-                                        std::to_string(trained_.size()) +
-                                        " trained on; give more people, or another held-out share or seed.");
-    }
     if (!run.validation.empty()) {
       const synth::ShardReader faces(run.validation);
       require_meshes(faces, run.validation, config_);
@@ -115,9 +92,10 @@ class SurfaceFinetuning {
   }
 
   void learn_person(Random random) {
-    const PersonSet& person = *trained_[static_cast<std::size_t>(random.below(static_cast<int>(trained_.size())))];
+    const PersonSet& person =
+        *people_.trained[static_cast<std::size_t>(random.below(static_cast<int>(people_.trained.size())))];
     const std::vector<SurfacePhoto> photos =
-        looker_.look(person, some_of(person.photos.size(), run_.config.photos, random.split(1)));
+        looker_.look(person, drawn_photos(person, run_.config.photos, random.split(1)));
     if (photos.empty()) return;
     torch::Tensor residual = torch::zeros({}, torch::kDouble);
     for (const SurfacePhoto& photo : photos) residual = residual + residual_of(photo, Trust::kStated);
@@ -136,8 +114,7 @@ class SurfaceFinetuning {
   // Photos of different people, whose shadings one light must explain.
   void learn_light(Random random) {
     const PersonSet& set = run_.lights[static_cast<std::size_t>(random.below(static_cast<int>(run_.lights.size())))];
-    const std::vector<SurfacePhoto> photos =
-        looker_.look(set, some_of(set.photos.size(), run_.config.photos, random.split(1)));
+    const std::vector<SurfacePhoto> photos = looker_.look(set, drawn_photos(set, run_.config.photos, random.split(1)));
     if (photos.empty()) return;
     std::vector<PhotoSurface> surfaces;
     std::vector<torch::Tensor> skin;
@@ -195,10 +172,10 @@ class SurfaceFinetuning {
     model_.module->eval();
     SurfaceScore out;
     int compared = 0;
-    for (const PersonSet* person : held_out_) {
+    for (const PersonSet* person : people_.held_out) {
       // The same photos before and after.
       const std::vector<SurfacePhoto> photos =
-          looker_.look(*person, some_of(person->photos.size(), run_.config.photos, Random({run_.config.seed, 0x5C03})));
+          looker_.look(*person, drawn_photos(*person, run_.config.photos, Random({run_.config.seed, 0x5C03})));
       if (photos.empty()) continue;
       const double share = 1.0 / static_cast<double>(photos.size());
       for (const SurfacePhoto& photo : photos) {
@@ -248,7 +225,7 @@ class SurfaceFinetuning {
                                          {"largest_gradient", config.largest_gradient},
                                          {"held_out_share", config.held_out_share},
                                          {"seed", config.seed},
-                                         {"people", trained_.size()},
+                                         {"people", people_.trained.size()},
                                          {"lights", run_.lights.size()},
                                          {"start", net::read_model_info(run_.start).sha256}};
     std::map<std::string, std::string> metadata =
@@ -269,10 +246,10 @@ class SurfaceFinetuning {
   const FinetuneSurfaceHooks& hooks_;
   TrainConfig config_;
   Model model_;
+  SplitPeople people_;
   SurfaceLooker looker_;  // reads model_
   torch::optim::AdamW optimizer_;
   Sums sums_;
-  std::vector<const PersonSet*> trained_, held_out_;
   std::optional<Validator> validator_;
   std::optional<synth::ShardReader> faces_;
   std::optional<BatchSource> source_;  // last: it reads faces_

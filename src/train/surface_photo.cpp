@@ -56,9 +56,10 @@ SurfaceLooker::SurfaceLooker(const Model& model, const TrainConfig& config, cons
   first_.module->eval();
 }
 
-std::vector<SurfacePhoto> SurfaceLooker::look(const PersonSet& set, const std::vector<std::size_t>& chosen) const {
+std::vector<SurfacePhoto> SurfaceLooker::look(const PersonSet& set, const std::vector<int>& chosen) const {
   std::vector<SurfacePhoto> seen;
-  for (const std::size_t i : chosen) {
+  for (const int number : chosen) {
+    const auto i = static_cast<std::size_t>(number);
     SurfacePhoto one{view_of(*set.photos[i], set.masks[i], set.meshes[i], view_), {}, {}, {}, {}};
     const Batch batch = batch_of(one.view);
     {

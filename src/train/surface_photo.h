@@ -37,7 +37,7 @@ class SurfaceLooker {
   // `model` must outlive it; `start`: the weights that it began with.
   SurfaceLooker(const Model& model, const TrainConfig& config, const std::filesystem::path& start);
   // Of the chosen photos those that show enough skin.
-  std::vector<SurfacePhoto> look(const PersonSet& set, const std::vector<std::size_t>& chosen) const;
+  std::vector<SurfacePhoto> look(const PersonSet& set, const std::vector<int>& chosen) const;
 
  private:
   const Model& model_;
