@@ -157,6 +157,7 @@ int run(const Options& options) {
                               .skins = std::filesystem::is_directory(skins) ? skins.string() : std::string(),
                               .maps = {},
                               .reflectance = {},
+                              .mixed_maps = {},
                               .threads = options.threads});
   assets.maps.clear();
   for (const double elevation_deg : {-15.0, 0.0, 15.0, 30.0, 45.0, 60.0})

@@ -62,8 +62,8 @@ synth::Assets load_synth_assets(const SynthSources& named) {
   if (assets.heads.empty()) assets.heads.push_back(synth::procedural_head());
   for (auto& [name, picture] : sources.skins) assets.skins.push_back(synth::prepare_texture(name, std::move(picture)));
   assets.reflectance = sources.reflectance;
-  const std::vector<std::pair<std::string, EnvMap>> maps =
-      sources.maps.empty() ? synth::procedural_maps() : std::move(sources.maps);
+  std::vector<synth::NamedMap> maps = sources.maps.empty() ? synth::procedural_maps() : std::move(sources.maps);
+  append(maps, synth::mixed_maps(maps, named.mixed_maps));
   assets.maps.resize(maps.size());
   parallel_for(static_cast<int>(maps.size()), named.threads, [&](int first, int last) {
     for (int i = first; i < last; ++i) {

@@ -80,6 +80,9 @@ int run(Options options) {
   if (!options.lamp_distance.empty()) options.recipe.lamp_distance_m = two_distances(options.lamp_distance);
   if (const std::string problem = options.recipe.validate(); !problem.empty()) throw Error(ExitCode::kUsage, problem);
   options.sources.threads = options.threads;
+  options.sources.mixed_maps.seed = options.recipe.seed;
+  if (const std::string problem = options.sources.mixed_maps.validate(); !problem.empty())
+    throw Error(ExitCode::kUsage, problem);
   const synth::Assets assets = load_synth_assets(options.sources);
   Progress progress;
   const synth::DatasetReport report =
@@ -128,6 +131,10 @@ void add_synth(CLI::App& program, Action& action) {
       ->add_option("--maps", options->sources.maps,
                    "folder of HDR environment maps, .hdr or .exr; default: a few built-in ones")
       ->type_name("DIR");
+  command
+      ->add_option("--mixed-maps", options->sources.mixed_maps.count,
+                   "maps to add, each mixed of two of these at other contrasts, half of them with lamps")
+      ->capture_default_str();
   command
       ->add_option("--reflectance", options->sources.reflectance,
                    "measured skin reflectance (MERL/ETH ts_data.mat); default: a built-in estimate")

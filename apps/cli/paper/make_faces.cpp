@@ -68,10 +68,12 @@ void make_paper_faces(PaperPlan& plan) {
     if (!set.needed || !set.folder->empty()) continue;
     const std::filesystem::path folder = plan.output / (plan.quick ? "faces_quick" : "faces") / set.name;
     if (assets.heads.empty()) {
-      assets = load_synth_assets({.heads = {(plan.data / "faces" / "ict_facekit").string()},
+      assets = load_synth_assets({.packed = {},
+                                  .heads = {(plan.data / "faces" / "ict_facekit").string()},
                                   .skins = (plan.data / "faces" / "london_uv_textures").string(),
                                   .maps = (plan.data / "hdri" / "dev").string(),
                                   .reflectance = {},
+                                  .mixed_maps = {},
                                   .threads = plan.threads});
     }
     const synth::DatasetReport report = synth::generate_dataset(
