@@ -12,6 +12,7 @@
 #include "faceprobe/io/photo.h"
 #include "faceprobe/io/picture_file.h"
 #include "faceprobe/pipeline/estimate.h"
+#include "faceprobe/pipeline/largest_face.h"
 #include "support/cells.h"
 #include "support/photos.h"
 #include "support/square.h"
@@ -42,7 +43,7 @@ void draw_sheet(const pipeline::Estimator& estimator, const std::vector<fs::path
   constexpr int kAcross = 4;  // faces of three cells each
   std::vector<pipeline::FaceEstimate> faces;
   for (const fs::path& file : files) {
-    if (auto face = bench::largest_face(estimator, io::load_photo(file))) faces.push_back(std::move(*face));
+    if (auto face = pipeline::find_largest_face(estimator, io::load_photo(file))) faces.push_back(std::move(*face));
   }
   if (faces.empty())
     throw Error(ExitCode::kInput, "There are no photos with a face for " + to.filename().string() + ".");
@@ -112,8 +113,8 @@ void report_agreement(const fs::path& london, const std::vector<pipeline::Estima
     std::vector<double> values;
     for (const auto& [id, files] : people) {
       if (files[0].empty() || files[1].empty()) continue;
-      const auto neutral = bench::largest_face(estimator, io::load_photo(files[0]));
-      const auto smiling = bench::largest_face(estimator, io::load_photo(files[1]));
+      const auto neutral = pipeline::find_largest_face(estimator, io::load_photo(files[0]));
+      const auto smiling = pipeline::find_largest_face(estimator, io::load_photo(files[1]));
       if (!neutral || !smiling) continue;
       const double value = agreement(flatten(*neutral, square), flatten(*smiling, square), regions);
       if (std::isfinite(value)) values.push_back(value);

@@ -9,6 +9,7 @@
 #include "faceprobe/core/error.h"
 #include "faceprobe/io/data_files.h"
 #include "faceprobe/io/photo.h"
+#include "faceprobe/pipeline/largest_face.h"
 #include "net/torch/picture_tensors.h"
 #include "support/photos.h"
 #include "support/square.h"
@@ -44,7 +45,7 @@ torch::Tensor flat(const Image& layer, const train::Warp& warp) {
 
 // Nothing when there is no face, or too little of it.
 std::optional<Seen> see(const pipeline::Estimator& estimator, const fs::path& file, const train::FaceTemplate& square) {
-  const std::optional<pipeline::FaceEstimate> face = bench::largest_face(estimator, io::load_photo(file));
+  const std::optional<pipeline::FaceEstimate> face = pipeline::find_largest_face(estimator, io::load_photo(file));
   if (!face || face->sources.shading != pipeline::ShadingSource::kNet) return std::nullopt;
   const Image& shading = face->shading;
   Image skin(shading.width(), shading.height(), 1);

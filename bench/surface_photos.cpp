@@ -11,6 +11,7 @@
 #include "faceprobe/io/data_files.h"
 #include "faceprobe/io/photo.h"
 #include "faceprobe/io/picture_file.h"
+#include "faceprobe/pipeline/largest_face.h"
 #include "support/cells.h"
 #include "support/photos.h"
 #include "support/square.h"
@@ -65,7 +66,7 @@ void draw(const pipeline::Estimator& estimator, const std::vector<fs::path>& fil
   constexpr int kCells = 5;
   std::vector<pipeline::FaceEstimate> faces;
   for (const fs::path& file : files) {
-    if (auto face = bench::largest_face(estimator, io::load_photo(file))) faces.push_back(std::move(*face));
+    if (auto face = pipeline::find_largest_face(estimator, io::load_photo(file))) faces.push_back(std::move(*face));
   }
   if (faces.empty()) throw Error(ExitCode::kInput, "There are no photos with a face to draw.");
   const int rows = (static_cast<int>(faces.size()) + kAcross - 1) / kAcross;
@@ -143,8 +144,8 @@ void report(const fs::path& london, const std::string& weights) {
     std::vector<double> photos, albedos;
     for (const auto& [id, files] : bench::london_pairs(london)) {
       if (files[0].empty() || files[1].empty()) continue;
-      const auto neutral = bench::largest_face(estimator, io::load_photo(files[0]));
-      const auto smiling = bench::largest_face(estimator, io::load_photo(files[1]));
+      const auto neutral = pipeline::find_largest_face(estimator, io::load_photo(files[0]));
+      const auto smiling = pipeline::find_largest_face(estimator, io::load_photo(files[1]));
       if (!neutral || !smiling) continue;
       const double photo =
           difference(flatten(*neutral, neutral->picture, square), flatten(*smiling, smiling->picture, square));

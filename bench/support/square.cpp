@@ -1,7 +1,5 @@
 #include "support/square.h"
 
-#include "faceprobe/core/error.h"
-
 namespace faceprobe::bench {
 
 train::Warp warp_of(const pipeline::FaceEstimate& estimate, const train::FaceTemplate& square) {
@@ -14,16 +12,6 @@ train::Warp warp_of(const pipeline::FaceEstimate& estimate, const train::FaceTem
   }
   landmarks.depth_px *= static_cast<float>(crop.scale);
   return train::face_warp(square, landmarks, {crop.width, crop.height});
-}
-
-std::optional<pipeline::FaceEstimate> largest_face(const pipeline::Estimator& estimator, const io::Photo& photo) {
-  try {
-    pipeline::Estimate estimate = estimator.estimate(photo);
-    return std::move(estimate.faces[estimate.largest]);
-  } catch (const Error& error) {
-    if (error.code() != ExitCode::kNoFace) throw;
-    return std::nullopt;
-  }
 }
 
 }  // namespace faceprobe::bench

@@ -4,14 +4,9 @@
 #include "faceprobe/pipeline/estimate.h"
 #include "train/frontalise.h"
 
-#include <optional>
-
 namespace faceprobe::bench {
 
 // Of the square that takes the face's crop. Crops of more than twice the square's size alias.
 train::Warp warp_of(const pipeline::FaceEstimate& estimate, const train::FaceTemplate& square);
-
-// Nothing when the photo shows no face.
-std::optional<pipeline::FaceEstimate> largest_face(const pipeline::Estimator& estimator, const io::Photo& photo);
 
 }  // namespace faceprobe::bench

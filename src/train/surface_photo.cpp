@@ -4,8 +4,8 @@
 #include "faceprobe/net/model_file.h"
 #include "net/torch/unet.h"
 #include "net/torch/weights.h"
+#include "train/finetune_model.h"
 
-#include <nlohmann/json.hpp>
 #include <utility>
 
 namespace faceprobe::train {
@@ -27,19 +27,11 @@ torch::Tensor probe_skin(const torch::Tensor& region_scores) {
 }  // namespace
 
 TrainConfig face_config_of(const std::filesystem::path& weights) {
-  const net::ModelInfo info = net::read_model_info(weights);
-  if (info.architecture != net::kFaceArchitecture) {
-    throw Error(ExitCode::kInput, weights.string() + " holds the network \"" + info.architecture +
+  TrainConfig config = trained_config(weights);
+  if (config.architecture != net::kFaceArchitecture) {
+    throw Error(ExitCode::kInput, weights.string() + " holds the network \"" + config.architecture +
                                       "\", which sees no surface; give weights of a network face.");
   }
-  TrainConfig config;
-  if (const auto run = info.metadata.find("run"); run != info.metadata.end()) {
-    const nlohmann::json json = nlohmann::json::parse(run->second, nullptr, false);
-    if (json.is_object() && json.contains("config")) config = train_config_from_json(json["config"].dump());
-  }
-  config.architecture = info.architecture;
-  config.network = info.options_json;
-  config.precision = "float32";  // on the processor, whatever they were trained on
   return config;
 }
 

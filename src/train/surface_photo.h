@@ -19,8 +19,8 @@
 
 namespace faceprobe::train {
 
-// As the weights were trained, so that what they know is kept by the loss they learnt it by. Throws Error(kInput) for another architecture
-// than "face", Error(kModel) for what are no weights.
+// trained_config() (finetune_model.h) of weights that see a surface. Throws Error(kInput) for another architecture than "face", Error(kModel) for
+// what are no weights.
 TrainConfig face_config_of(const std::filesystem::path& weights);
 Model face_model(const TrainConfig& config, const std::filesystem::path& weights);
 

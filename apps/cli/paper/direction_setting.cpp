@@ -1,7 +1,5 @@
 #include "paper/direction_setting.h"
 
-#include "faceprobe/core/error.h"
-
 #include <utility>
 
 namespace faceprobe::cli {
@@ -40,16 +38,6 @@ std::vector<pipeline::Estimator> estimators_of(const std::vector<DirectionSettin
   estimators.reserve(settings.size());
   for (const DirectionSetting& setting : settings) estimators.emplace_back(setting.options);
   return estimators;
-}
-
-std::optional<pipeline::FaceEstimate> face_in(const pipeline::Estimator& estimator, const io::Photo& photo) {
-  try {
-    pipeline::Estimate estimate = estimator.estimate(photo);
-    return std::move(estimate.faces[estimate.largest]);
-  } catch (const Error& error) {
-    if (error.code() != ExitCode::kNoFace) throw;
-    return std::nullopt;
-  }
 }
 
 }  // namespace faceprobe::cli

@@ -35,7 +35,4 @@ DirectionSetting normals_setting(pipeline::NormalSource normals, const pipeline:
 // Loads the models of each.
 std::vector<pipeline::Estimator> estimators_of(const std::vector<DirectionSetting>& settings);
 
-// The largest face of the photo; nothing where none is found.
-std::optional<pipeline::FaceEstimate> face_in(const pipeline::Estimator& estimator, const io::Photo& photo);
-
 }  // namespace faceprobe::cli

@@ -2,6 +2,7 @@
 
 #include "faceprobe/core/angles.h"
 #include "faceprobe/io/photo.h"
+#include "faceprobe/pipeline/largest_face.h"
 #include "paper/light_direction.h"
 
 #include <array>
@@ -41,7 +42,7 @@ LondonAnswers answers_to(const io::Photo& photo, const std::vector<pipeline::Est
   LondonAnswers own;
   LondonAnswers theirs;
   for (const pipeline::Estimator& estimator : estimators) {
-    const std::optional<pipeline::FaceEstimate> face = face_in(estimator, photo);
+    const std::optional<pipeline::FaceEstimate> face = pipeline::find_largest_face(estimator, photo);
     own.push_back(face ? london_answer(*face) : std::nullopt);
     if (!theirs.empty()) continue;
     for (const FaceLightMethod& rival : rivals) {

@@ -4,6 +4,7 @@
 #include "faceprobe/core/color.h"
 #include "faceprobe/core/error.h"
 #include "faceprobe/io/photo.h"
+#include "faceprobe/pipeline/largest_face.h"
 #include "paper/csv.h"
 #include "paper/light_direction.h"
 
@@ -128,7 +129,7 @@ eval::ScoreTable measure_yale(const std::vector<YalePicture>& pictures, const st
     const io::Photo as_light = as_linear_codes(as_srgb);
     for (std::size_t k = 0; k < aligned.size(); ++k) {
       const io::Photo& photo = aligned[k].linear_codes ? as_light : as_srgb;
-      const std::optional<pipeline::FaceEstimate> face = face_in(estimators[k], photo);
+      const std::optional<pipeline::FaceEstimate> face = pipeline::find_largest_face(estimators[k], photo);
       add(aligned[k].name, flash_errors(face, picture.light));
       if (k > 0) continue;
       for (const FaceLightMethod& rival : rivals) add(rival.name, rival_errors(rival, face, photo, picture.light));
