@@ -12,6 +12,7 @@ void Observations::resize(Eigen::Index patches) {
   view.setZero(patches, 3);
   highlight.setZero(patches, 3);
   shading.setZero(patches, 3);
+  open_shading.resize(0, 3);
   clipped.setConstant(patches, 3, false);
   constexpr Microfacet kSkin;
   roughness.setConstant(patches, kSkin.roughness);
@@ -30,11 +31,15 @@ std::string Observations::validate() const {
   if (horizon.rows() != 0 && (horizon.rows() != n || horizon.cols() != kHorizonAzimuths)) {
     return "Observations need a horizon of " + std::to_string(kHorizonAzimuths) + " azimuths for each normal, or none.";
   }
+  if (open_shading.rows() != 0 && open_shading.rows() != n)
+    return "Observations need an open shading for each normal, or none.";
   if (n == 0) return {};
-  if (!normal.allFinite() || !view.allFinite() || !highlight.allFinite() || !shading.allFinite() || !weight.allFinite()) {
+  if (!normal.allFinite() || !view.allFinite() || !highlight.allFinite() || !shading.allFinite() ||
+      !weight.allFinite() || !open_shading.allFinite()) {
     return "Observations hold values that are not finite.";
   }
-  if (highlight.minCoeff() < 0 || shading.minCoeff() < 0) return "Observations hold negative light.";
+  const bool dark = open_shading.size() > 0 && open_shading.minCoeff() < 0;
+  if (highlight.minCoeff() < 0 || shading.minCoeff() < 0 || dark) return "Observations hold negative light.";
   if (!horizon.allFinite() || !roughness.allFinite()) return "Observations hold values that are not finite.";
   const auto unit = [](const Eigen::MatrixX3f& rows) {
     constexpr float kTolerance = 0.01F;  // normals may come from files of half floats
@@ -59,9 +64,13 @@ Observations concatenate(const std::vector<Observations>& sets) {
   all.resize(total);
   all.grey = !sets.empty() && std::ranges::all_of(sets, [](const Observations& set) { return set.grey; });
   if (any_horizon) all.horizon.setConstant(total, kHorizonAzimuths, kNothingBlocks);
+  const bool all_open =
+      std::ranges::all_of(sets, [](const Observations& set) { return set.open_shading.rows() == set.count(); });
+  if (all_open) all.open_shading.setZero(total, 3);
   Eigen::Index at = 0;
   for (const Observations& set : sets) {
     const Eigen::Index n = set.count();
+    if (all_open) all.open_shading.middleRows(at, n) = set.open_shading;
     all.normal.middleRows(at, n) = set.normal;
     all.view.middleRows(at, n) = set.view;
     all.highlight.middleRows(at, n) = set.highlight;

@@ -24,18 +24,23 @@ Eigen::Vector3f normal_of(const float* raw) {
   return free / std::max(free.norm(), static_cast<float>(Out::kShortest));
 }
 
-Eigen::Array3f shading_of(const float* raw) {
+// Of four channels: a level and a colour.
+Eigen::Array3f light_of(const float* raw) {
   Eigen::Array3f colour;
   for (int c = 0; c < 3; ++c)
-    colour[c] =
-        softplus(limited(raw[Out::kShading + 1 + c], Head::kLargestRaw)) + static_cast<float>(Head::kColourFloor);
-  return std::exp(limited(raw[Out::kShading], Out::kLargestLog)) * colour / colour.mean();
+    colour[c] = softplus(limited(raw[1 + c], Head::kLargestRaw)) + static_cast<float>(Head::kColourFloor);
+  return std::exp(limited(raw[0], Out::kLargestLog)) * colour / colour.mean();
 }
 
 Image mean_of(const Image& a, const Image& b) {
   Image mean = a;
   for (std::size_t i = 0; i < a.values().size(); ++i) mean.data()[i] = 0.5F * (a.data()[i] + b.data()[i]);
   return mean;
+}
+
+// Of a layer that not every network has.
+Image seen_back_if_there(const Image& part, const Window& back) {
+  return part.empty() ? Image() : resampled(part, back, Outside::kEdge);
 }
 
 void make_unit(Image& normals) {
@@ -94,12 +99,15 @@ FaceLayers surface_of_raw(const Image& raw, float gain, int width, int height) {
                     .normal_error_rad = Image(width, height, 1),
                     .depth_m = Image(width, height, 1),
                     .shading = Image(width, height, 3),
-                    .region = ByteImage(width, height, 1)};
+                    .region = ByteImage(width, height, 1),
+                    .open_shading = raw.channels() == Out::kCount ? Image(width, height, 3) : Image()};
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const float* from = raw.pixel(x, y);
       Eigen::Map<Eigen::Vector3f>(layers.normal_cam.pixel(x, y)) = normal_of(from);
-      Eigen::Map<Eigen::Array3f>(layers.shading.pixel(x, y)) = shading_of(from) / gain;
+      Eigen::Map<Eigen::Array3f>(layers.shading.pixel(x, y)) = light_of(from + Out::kShading) / gain;
+      if (!layers.open_shading.empty())
+        Eigen::Map<Eigen::Array3f>(layers.open_shading.pixel(x, y)) = light_of(from + Out::kOpen) / gain;
       layers.normal_error_rad(x, y) =
           static_cast<float>(Out::kUsualError) * std::exp(limited(from[Out::kSpread], Out::kLargestLog));
       layers.depth_m(x, y) = static_cast<float>(Out::kDepthUnit) * from[Out::kDepth];
@@ -116,7 +124,8 @@ FaceLayers mean_of(const FaceLayers& a, const FaceLayers& b) {
                   .normal_error_rad = mean_of(a.normal_error_rad, b.normal_error_rad),
                   .depth_m = mean_of(a.depth_m, b.depth_m),
                   .shading = mean_of(a.shading, b.shading),
-                  .region = a.region};
+                  .region = a.region,
+                  .open_shading = mean_of(a.open_shading, b.open_shading)};
   make_unit(mean.normal_cam);
   return mean;
 }
@@ -128,7 +137,8 @@ FaceLayers seen_back(const FaceLayers& part, const Window& window, int width, in
                   .normal_error_rad = resampled(part.normal_error_rad, back, Outside::kEdge),
                   .depth_m = resampled(part.depth_m, back, Outside::kEdge),
                   .shading = resampled(part.shading, back, Outside::kEdge),
-                  .region = resampled(part.region, back)};
+                  .region = resampled(part.region, back),
+                  .open_shading = seen_back_if_there(part.open_shading, back)};
   make_unit(seen.normal_cam);
   return seen;
 }
@@ -148,6 +158,7 @@ void put_near(const FaceLayers& near, const Window& window, const ByteImage& whe
       put_pixel(seen.normal_error_rad, x, y, whole.normal_error_rad);
       whole.depth_m(x, y) = seen.depth_m(x, y) + shift;
       put_pixel(seen.shading, x, y, whole.shading);
+      if (!seen.open_shading.empty()) put_pixel(seen.open_shading, x, y, whole.open_shading);
       put_pixel(seen.region, x, y, whole.region);
     }
   }
@@ -165,6 +176,7 @@ void mirror(FaceLayers& layers) {
   mirror(layers.normal_error_rad);
   mirror(layers.depth_m);
   mirror(layers.shading);
+  if (!layers.open_shading.empty()) mirror(layers.open_shading);
   mirror(layers.region);
 }
 

@@ -14,7 +14,7 @@ struct FaceInputPicture {
 // `mesh`: its normals, zero off it, no larger than the picture, whose edge is repeated; empty = no mesh.
 FaceInputPicture face_input(const PaddedPicture& picture, const Image& mesh);
 
-// `raw`: H x W x FaceOutputs::kCount, at least as large as the result in either direction. Everything but the highlight, which head.h reads.
+// `raw`: H x W x FaceOutputs::kCount or kCountWithoutOpen, at least as large as the result in either direction. Everything but the highlight, which head.h reads.
 FaceLayers surface_of_raw(const Image& raw, float gain, int width, int height);
 
 // The mean of two pictures' layers, regions those of the first; normals are unit again.

@@ -48,6 +48,12 @@ bool shows_all(const ByteImage& mask) {
   return std::ranges::all_of(mask.values(), [](std::uint8_t m) { return m != 0; });
 }
 
+// Those of weights from before there was an open shading as well.
+UNetOptions face_options(const std::string& json) {
+  const bool without = unet_options_from_json(json).out_channels == FaceOutputs::kCountWithoutOpen;
+  return separator_options(json, FaceInputs::kCount, without ? FaceOutputs::kCountWithoutOpen : FaceOutputs::kCount);
+}
+
 int picture_px_of(const ModelInfo& info) {
   const auto found = info.metadata.find(kPictureKey);
   if (found == info.metadata.end()) return 0;
@@ -99,7 +105,7 @@ FaceNet::FaceNet(const std::filesystem::path& weights, const FaceNetOptions& opt
                                       "; a face's layers come from face. Use weights made for it.");
   }
   WeightList list(file);
-  UNetRunner runner(separator_options(info.options_json, FaceInputs::kCount, FaceOutputs::kCount), list);
+  UNetRunner runner(face_options(info.options_json), list);
   list.finish();
   const int picture_px = picture_px_of(info);
   impl_ = std::make_unique<Impl>(Impl{options.threads, picture_px, std::move(info), std::move(runner)});
@@ -136,6 +142,7 @@ FaceLayers FaceNet::layers(const Image& linear, const ByteImage& clip, const Byt
   const bool grey = is_grey(light);
   keep_within(layers.highlight, light, mask, grey);
   if (grey) make_grey(layers.shading);
+  if (grey) make_grey(layers.open_shading);
   return layers;
 }
 

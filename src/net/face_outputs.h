@@ -24,7 +24,11 @@ struct FaceOutputs {
   static constexpr int kShading =
       9;  // logarithm of the mean of the channels, of the picture as it went in; colour red, green, blue as the highlight's
   static constexpr int kRegion = 13;  // of each Region a score; the largest is meant
-  static constexpr int kCount = kRegion + kRegionCount;
+  static constexpr int kCountWithoutOpen =
+      kRegion + kRegionCount;  // networks that were trained before there was the next
+  static constexpr int kOpen =
+      kCountWithoutOpen;  // as kShading: of what the shading would be if nothing stood in the light's way
+  static constexpr int kCount = kOpen + 4;
 
   static constexpr double kUsualError = 0.15;  // radians
   static constexpr double kDepthUnit = 0.05;   // metres

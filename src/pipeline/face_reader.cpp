@@ -158,6 +158,7 @@ struct FaceReader::Network {
     Surface surface{enlarged(found.normal_cam, look.copy, width, height),
                     enlarged(found.normal_error_rad, look.copy, width, height),
                     enlarged(found.shading, look.copy, width, height), enlarged(found.region, look.copy, width, height)};
+    if (!found.open_shading.empty()) surface.open_shading = enlarged(found.open_shading, look.copy, width, height);
     make_unit(surface.normal_cam);
     return surface;
   }
@@ -182,7 +183,7 @@ Reading FaceReader::read(const Image& picture, const ByteImage& flags, const Byt
   } else {
     reading.layers = highlight::separate(picture, skin, classical_);
     reading.classical = classical_.separator;
-    if (reading.surface) reading.surface->shading = {};
+    if (reading.surface) reading.surface->shading = reading.surface->open_shading = {};
   }
   return reading;
 }

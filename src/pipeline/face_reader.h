@@ -24,6 +24,7 @@ struct Surface {
   Image normal_error_rad;
   Image shading;  // empty where it is not to be trusted
   ByteImage region;
+  Image open_shading = {};  // empty with the shading, and where the weights do not know it
 };
 
 // The network looks along the axis of a camera of its own; this turns its directions to where the face is seen.

@@ -21,6 +21,7 @@ lighting::Observations thinned(const lighting::Observations& all, Eigen::Index k
   set.view = all.view(rows, Eigen::all);
   set.highlight = all.highlight(rows, Eigen::all);
   set.shading = all.shading(rows, Eigen::all);
+  if (all.open_shading.rows() > 0) set.open_shading = all.open_shading(rows, Eigen::all);
   set.clipped = all.clipped(rows, Eigen::all);
   set.roughness = all.roughness(rows);
   set.specular_albedo = all.specular_albedo(rows);

@@ -76,6 +76,7 @@ struct Patch {
   Eigen::Vector3f view = Eigen::Vector3f::Zero();
   Eigen::Vector3f highlight = Eigen::Vector3f::Zero();
   Eigen::Vector3f shading = Eigen::Vector3f::Zero();
+  Eigen::Vector3f open_shading = Eigen::Vector3f::Zero();
   Eigen::Array3f clipped = Eigen::Array3f::Zero();
   float roughness = 0;
   float specular_albedo = 0;
@@ -95,8 +96,11 @@ ByteImage skin_regions(const ByteImage& region) {
 }
 
 lighting::Observations observe(const face::FaceGeometry& geometry, const Image& highlight, const Image& shading,
-                               const ByteImage& flags, int max_patches, int threads) {
+                               const ByteImage& flags, int max_patches, int threads, const Image& open_shading) {
   check(geometry, highlight, shading, flags, max_patches);
+  const bool has_open = !open_shading.empty();
+  if (has_open && !open_shading.same_size(shading))
+    throw std::invalid_argument("The open shading must have the size of the shading.");
   const int width = geometry.region.width();
   const int height = geometry.region.height();
   int skin = 0;
@@ -118,6 +122,7 @@ lighting::Observations observe(const face::FaceGeometry& geometry, const Image& 
       patch.view += Eigen::Map<const Eigen::Vector3f>(geometry.view_cam.pixel(x, y));
       patch.highlight += Eigen::Map<const Eigen::Vector3f>(highlight.pixel(x, y));
       patch.shading += Eigen::Map<const Eigen::Vector3f>(shading.pixel(x, y));
+      if (has_open) patch.open_shading += Eigen::Map<const Eigen::Vector3f>(open_shading.pixel(x, y));
       for (int c = 0; c < 3; ++c) patch.clipped[c] += (flags(x, y) >> c & 1) != 0 ? 1.0F : 0.0F;
       patch.roughness += skin_here.roughness;
       patch.specular_albedo += skin_here.specular_albedo;
@@ -134,6 +139,7 @@ lighting::Observations observe(const face::FaceGeometry& geometry, const Image& 
 
   lighting::Observations o;
   o.resize(static_cast<Eigen::Index>(grid.size()));
+  if (has_open) o.open_shading.setZero(o.count(), 3);
   Eigen::MatrixX2i centres(o.count(), 2);
   for (Eigen::Index i = 0; i < o.count(); ++i) {
     const Patch& p = grid[static_cast<std::size_t>(i)];
@@ -141,6 +147,7 @@ lighting::Observations observe(const face::FaceGeometry& geometry, const Image& 
     o.view.row(i) = p.view.normalized().transpose();
     o.highlight.row(i) = p.highlight.transpose() / p.pixels;
     o.shading.row(i) = p.shading.transpose() / p.pixels;
+    if (has_open) o.open_shading.row(i) = p.open_shading.transpose() / p.pixels;
     o.clipped.row(i) = (p.clipped / p.pixels > 0.25F).transpose();
     o.roughness[i] = p.roughness / p.pixels;
     o.specular_albedo[i] = p.specular_albedo / p.pixels;

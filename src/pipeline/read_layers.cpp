@@ -61,11 +61,13 @@ void read_layers(const FaceReader& reader, const EstimateOptions& options, const
 
   const ByteImage skin = skin_regions(face.geometry.region);
   Image shading;
+  Image open_shading;
   if (options.shading == ShadingSource::kGiven && enough) {
     shading = given_shading(options.shading_split, face.layers.diffuse, skin, face.clipped, options.threads);
     if (grey) take_colour_off(shading);
   } else if (options.shading == ShadingSource::kNet && reading.surface) {
     shading = std::move(reading.surface->shading);
+    open_shading = std::move(reading.surface->open_shading);
   }
   if (!shading.empty()) {
     AlbedoShading split = split_diffuse(shading, face.layers.diffuse, skin);
@@ -83,8 +85,8 @@ void read_layers(const FaceReader& reader, const EstimateOptions& options, const
   }
   lap(watch, "albedo and shading");
 
-  face.observations =
-      observe(face.geometry, face.layers.highlight, face.shading, face.clipped, options.max_patches, options.threads);
+  face.observations = observe(face.geometry, face.layers.highlight, face.shading, face.clipped, options.max_patches,
+                              options.threads, open_shading);
   face.observations.grey = grey;
 }
 

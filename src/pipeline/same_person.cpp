@@ -92,10 +92,15 @@ void apply_skin_gain(const lighting::SharedSkin::Photo& gain, double skin_log_de
   if (colour.y() > 0) face.light_colour = colour / colour.y();
   if (face.light_colour_uncertainty_deg)
     face.light_colour_uncertainty_deg = lighting::colour_uncertainty_deg(face.light_colour, skin_log_deviation);
-  const bool grey = face.observations.grey;
+  const lighting::Observations before = std::move(face.observations);
   face.observations =
       observe(face.geometry, face.layers.highlight, face.shading, face.clipped, options.max_patches, options.threads);
-  face.observations.grey = grey;
+  face.observations.grey = before.grey;
+  // The same patches: what the skin is darker, the light is brighter.
+  if (before.open_shading.rows() > 0) {
+    face.observations.open_shading =
+        before.open_shading.cwiseProduct(face.observations.shading.cwiseQuotient(before.shading.cwiseMax(1e-6F)));
+  }
 }
 
 void share_person(const std::vector<FaceEstimate*>& faces, const EstimateOptions& options, const SolveAgain& solve) {

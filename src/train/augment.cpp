@@ -7,6 +7,7 @@
 #include "faceprobe/synth/photo_layers.h"
 #include "net/close_view.h"
 #include "train/augment_view.h"
+#include "train/open_shading.h"
 
 #include <algorithm>
 #include <cmath>
@@ -37,6 +38,10 @@ void take_colour(TrainingPicture& picture) {
   }
   // How much of a grey photo's tone is the light's colour cannot be seen.
   std::fill(picture.shading.values().begin(), picture.shading.values().end(), 0.0F);
+  for (std::size_t i = 0; i < picture.open.values().size(); i += 3) {
+    float* light = picture.open.data() + i;
+    std::fill_n(light, 3, luminance(light));
+  }
 }
 
 // A plain matt ellipse over part of the picture.
@@ -66,6 +71,28 @@ void put_before(TrainingPicture& picture, Random& random) {
       if (picture.has_surface()) {
         picture.region(x, y) = static_cast<std::uint8_t>(Region::kObject);
         std::fill_n(picture.shading.pixel(x, y), 3, 0.0F);
+        std::fill_n(picture.open.pixel(x, y), 3, 0.0F);
+      }
+    }
+  }
+}
+
+// In the place of what is behind the person, a plain backdrop that is lit from one side: in synthetic photos the background is the light itself, in
+// a studio it is not.
+void put_behind(TrainingPicture& picture, Random& random) {
+  const double angle = random.between(-kPi, kPi);
+  const double slope = random.between(0, 0.8) / static_cast<double>(picture.linear.width());
+  std::array<float, 3> colour{};
+  const double level = random.log_between(0.005, 0.9);
+  for (float& channel : colour) channel = static_cast<float>(level * std::exp(random.normal(0, 0.2)));
+  for (int y = 0; y < picture.linear.height(); ++y) {
+    for (int x = 0; x < picture.linear.width(); ++x) {
+      if (picture.region(x, y) != static_cast<std::uint8_t>(Region::kNone)) continue;
+      const double shade = std::exp(2 * slope * (x * std::cos(angle) + y * std::sin(angle)));
+      for (int c = 0; c < 3; ++c) {
+        picture.linear(x, y, c) = std::min(1.0F, static_cast<float>(shade) * colour[static_cast<std::size_t>(c)]);
+        picture.highlight(x, y, c) = 0;
+        picture.clip(x, y, c) = picture.linear(x, y, c) >= 1.0F ? 1 : 0;
       }
     }
   }
@@ -78,6 +105,7 @@ void mirror_surface(TrainingPicture& picture) {
   }
   mirror(picture.depth_m);
   mirror(picture.shading);
+  mirror(picture.open);
   mirror(picture.region);
 }
 
@@ -124,6 +152,7 @@ TrainingPicture picture_of(const synth::ShardReader& reader, int number, float m
   } else if (surface) {
     picture.mesh = Image(picture.linear.width(), picture.linear.height(), 3);  // as where no face was found
   }
+  if (surface) picture.open = open_shading(sample.environment, picture.normal, picture.region);
   for (std::size_t i = 0; i < sample.clip.pixel_count(); ++i) {
     for (std::size_t c = 0; c < 3; ++c)
       picture.clip.data()[3 * i + c] = static_cast<std::uint8_t>(sample.clip.data()[i] >> c & 1U);
@@ -167,7 +196,10 @@ void apply_gain(const std::array<float, 3>& gain, TrainingPicture& picture) {
     const float diffuse = g * (light - highlight);
     light *= g;
     highlight *= g;
-    if (picture.has_surface()) picture.shading.data()[i] *= gain[i % 3];
+    if (picture.has_surface()) {
+      picture.shading.data()[i] *= gain[i % 3];
+      picture.open.data()[i] *= gain[i % 3];
+    }
     if (light >= 1.0F) {
       light = 1.0F;
       highlight = 1.0F - std::min(1.0F, diffuse);
@@ -205,6 +237,8 @@ TrainingPicture draw_picture(const synth::ShardReader& reader, int sample, const
   const double down = random.between(-0.06, 0.06);
   const bool cut = random.chance(augment.cut_share);
   const std::array<double, 4> cuts = draw_cuts(random);
+  Random behind = random.split(1);  // apart, so that what is drawn here is what was drawn before there were backdrops
+  const bool before_backdrop = behind.chance(augment.backdrop_share);
 
   TrainingPicture picture = picture_of(reader, sample, scale, learns_surface(config));
   if (config.picture_px > 0) {
@@ -218,6 +252,7 @@ TrainingPicture draw_picture(const synth::ShardReader& reader, int sample, const
   }
   const double width = picture.linear.width();
   const double height = picture.linear.height();
+  if (before_backdrop && picture.has_surface()) put_behind(picture, behind);
   if (changes_light(config)) apply_gain(gain, picture);
   if (occluded) put_before(picture, random);
   if (grey) take_colour(picture);

@@ -19,6 +19,7 @@ struct TrainingPicture {
   Image normal = {};      // 3 channels
   Image depth_m = {};     // 1 channel
   Image shading = {};     // 3 channels; 0 where it is not known
+  Image open = {};        // 3 channels: open_shading.h; 0 where it is not known
   ByteImage region = {};  // 1 channel, Region
 
   bool has_surface() const { return !region.empty(); }

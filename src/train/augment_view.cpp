@@ -16,6 +16,7 @@ void put_outside(TrainingPicture& picture, int x, int y) {
   if (!picture.has_surface()) return;
   picture.region(x, y) = static_cast<std::uint8_t>(Region::kNone);
   std::fill_n(picture.shading.pixel(x, y), 3, 0.0F);
+  std::fill_n(picture.open.pixel(x, y), 3, 0.0F);
 }
 
 }  // namespace
@@ -39,6 +40,7 @@ TrainingPicture seen_through(const Window& window, const TrainingPicture& pictur
     // Between a face and what is not known about its surroundings there is nothing to interpolate.
     out.depth_m = nearest(picture.depth_m, window);
     out.shading = nearest(picture.shading, window);
+    out.open = nearest(picture.open, window);
     out.region = resampled(picture.region, window);
   }
   for (std::size_t i = 0; i < out.linear.values().size(); ++i)

@@ -72,6 +72,7 @@ void put(const TrainingPicture& picture, std::int64_t at, const Batch& batch) {
   copy(picture.region, batch.surface.region);
   copy(picture.shading, batch.surface.shading);
   copy(lit_pixels(picture), batch.surface.lit);
+  copy(picture.open, batch.surface.open);
 }
 
 Batch empty_batch(std::int64_t count, int width, int height, bool surface) {
@@ -81,7 +82,8 @@ Batch empty_batch(std::int64_t count, int width, int height, bool surface) {
   };
   Batch batch{pictures(3), pictures(3), pictures(1), pictures(3), pictures(1), {}};
   if (surface)
-    batch.surface = {pictures(3), pictures(3), pictures(1), pictures(1), pictures(1), pictures(3), pictures(1)};
+    batch.surface = {pictures(3), pictures(3), pictures(1), pictures(1),
+                     pictures(1), pictures(3), pictures(1), pictures(3)};
   return batch;
 }
 

@@ -24,6 +24,7 @@ struct SurfaceBatch {
   torch::Tensor region;   // N x 1 x H x W: the Region's number
   torch::Tensor shading;  // N x 3 x H x W
   torch::Tensor lit;      // N x 1 x H x W of 0 and 1: where the shading is known and can be seen
+  torch::Tensor open;     // N x 3 x H x W: open_shading.h; 0 where it is not known
 
   bool there() const { return normal.defined(); }
 };

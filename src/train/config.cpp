@@ -47,6 +47,7 @@ constexpr auto kEachTrainField = [](auto& config, const auto& visit) {
   visit("grey_share", config.augment.grey_share, 0, 1);
   visit("no_mask_share", config.augment.no_mask_share, 0, 1);
   visit("occluder_share", config.augment.occluder_share, 0, 1);
+  visit("backdrop_share", config.augment.backdrop_share, 0, 1);
   visit("zoom_share", config.augment.zoom_share, 0, 1);
   visit("close_share", config.augment.close_share, 0, 1);
   visit("cut_share", config.augment.cut_share, 0, 1);
@@ -62,6 +63,7 @@ constexpr auto kEachTrainField = [](auto& config, const auto& visit) {
   visit("loss_rare", config.loss.rare, 0, 100);
   visit("loss_shading", config.loss.shading, 0, 100);
   visit("loss_colour", config.loss.colour, 0, 100);
+  visit("loss_open", config.loss.open, 0, 100);
   visit("network", ObjectText{config.network});
 };
 

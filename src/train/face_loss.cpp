@@ -30,11 +30,19 @@ torch::Tensor depth_loss(const torch::Tensor& depth, const SurfaceBatch& truth) 
 }
 
 // Mostly of the shading's course over the face, a third of its level, which is the exposure over the skin's unknown albedo.
-torch::Tensor shading_loss(const torch::Tensor& log_level, const SurfaceBatch& truth) {
+torch::Tensor shading_loss(const torch::Tensor& log_level, const torch::Tensor& shading, const torch::Tensor& known) {
   constexpr double kOfLevel = 0.3;
-  const torch::Tensor error = (log_level - truth.shading.mean(1, true).clamp_min(1e-4).log()) * truth.lit;
-  const torch::Tensor level = picture_mean(error, truth.lit);
-  return weighted_mean(smooth_abs(error - level), truth.lit) + kOfLevel * smooth_abs(level).mean();
+  const torch::Tensor error = (log_level - shading.mean(1, true).clamp_min(1e-4).log()) * known;
+  const torch::Tensor level = picture_mean(error, known);
+  return weighted_mean(smooth_abs(error - level), known) + kOfLevel * smooth_abs(level).mean();
+}
+
+// Of the shading without anything in the light's way. A side of the face that looks away from all light is as good as black below a hundredth.
+torch::Tensor open_loss(const net::FaceSurface& found, const SurfaceBatch& truth) {
+  constexpr double kDark = 1e-2;
+  const torch::Tensor known = (truth.open.amax(1, true) > 0).to(torch::kFloat);
+  const torch::Tensor light = truth.open.clamp_min(kDark);
+  return shading_loss(found.open_log_level, light, known) + weighted_mean(chord(found.open_colour, light), known);
 }
 
 // Small regions are few pixels and would be given up.
@@ -57,10 +65,12 @@ torch::Tensor surface_loss(const net::FaceSurface& found, const SurfaceBatch& tr
   const torch::Tensor error = chord(found.normal, truth.normal);
   const torch::Tensor names = truth.region.squeeze(1).to(torch::kLong);
   const torch::Tensor weights = region_weights(config.rare, found.region.options());
-  return config.normal * weighted_mean(error, truth.weight) + config.spread * spread_loss(error, found, truth.weight) +
-         config.depth * depth_loss(found.depth, truth) +
+  const torch::Tensor of_open =
+      found.open_log_level.defined() ? config.open * open_loss(found, truth) : torch::zeros({}, error.options());
+  return of_open + config.normal * weighted_mean(error, truth.weight) +
+         config.spread * spread_loss(error, found, truth.weight) + config.depth * depth_loss(found.depth, truth) +
          config.region * torch::cross_entropy_loss(found.region, names, weights) +
-         config.shading * shading_loss(found.log_level, truth) +
+         config.shading * shading_loss(found.log_level, truth.shading, truth.lit) +
          config.colour * weighted_mean(chord(found.colour, truth.shading), truth.lit);
 }
 

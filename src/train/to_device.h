@@ -12,7 +12,7 @@ inline Batch to_device(const Batch& batch, const torch::Device& device) {
   if (surface.there()) {
     out.surface = {surface.mesh.to(device),   surface.normal.to(device), surface.depth_m.to(device),
                    surface.weight.to(device), surface.region.to(device), surface.shading.to(device),
-                   surface.lit.to(device)};
+                   surface.lit.to(device),    surface.open.to(device)};
   }
   return out;
 }

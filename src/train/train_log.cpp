@@ -9,7 +9,7 @@
 namespace faceprobe::train {
 namespace {
 
-constexpr std::size_t kTrainRowNumbers = 13;
+constexpr std::size_t kTrainRowNumbers = 14;
 
 }  // namespace
 
@@ -19,7 +19,7 @@ torch::Tensor table_of_rows(const std::vector<TrainRow>& rows) {
     const Validation& found = row.validation;
     numbers.push_back({static_cast<double>(row.step), row.loss, row.learning_rate, row.samples_per_second,
                        row.validated ? 1.0 : 0.0, found.skin, found.whole, found.black_skin, found.black_whole,
-                       found.normal_deg, found.region_share, found.shading, found.colour_deg});
+                       found.normal_deg, found.region_share, found.shading, found.colour_deg, found.open_shading});
   }
   return table_of(numbers);
 }
@@ -33,7 +33,7 @@ std::vector<TrainRow> rows_of_table(const torch::Tensor& table) {
     row.learning_rate = n[2];
     row.samples_per_second = n[3];
     row.validated = n[4] != 0;
-    row.validation = {n[5], n[6], n[7], n[8], n[9], n[10], n[11], n[12]};
+    row.validation = {n[5], n[6], n[7], n[8], n[9], n[10], n[11], n[12], n[13]};
     rows.push_back(row);
   }
   return rows;
@@ -42,20 +42,20 @@ std::vector<TrainRow> rows_of_table(const torch::Tensor& table) {
 std::string to_csv(const std::vector<TrainRow>& rows) {
   std::string csv =
       "step,loss,learning_rate,samples_per_second,rmse_skin,rmse_whole,black_skin,black_whole,normal_deg,region_share,"
-      "shading,colour_deg\n";
+      "shading,colour_deg,open_shading\n";
   std::array<char, 256> line{};
   for (const TrainRow& row : rows) {
     std::snprintf(line.data(), line.size(), "%lld,%.6g,%.6g,%.2f", static_cast<long long>(row.step), row.loss,
                   row.learning_rate, row.samples_per_second);
     csv += line.data();
     if (row.validated) {
-      std::snprintf(line.data(), line.size(), ",%.4f,%.4f,%.4f,%.4f,%.3f,%.4f,%.4f,%.3f", row.validation.skin,
+      std::snprintf(line.data(), line.size(), ",%.4f,%.4f,%.4f,%.4f,%.3f,%.4f,%.4f,%.3f,%.4f", row.validation.skin,
                     row.validation.whole, row.validation.black_skin, row.validation.black_whole,
                     row.validation.normal_deg, row.validation.region_share, row.validation.shading,
-                    row.validation.colour_deg);
+                    row.validation.colour_deg, row.validation.open_shading);
       csv += line.data();
     } else {
-      csv += ",,,,,,,,";
+      csv += ",,,,,,,,,";
     }
     csv += '\n';
   }

@@ -33,12 +33,17 @@ torch::Tensor degrees_between(const torch::Tensor& a, const torch::Tensor& b) {
   return 2 * (0.5 * chord(a, b)).clamp_max(1).asin() * degrees(1);
 }
 
-void add_light(const torch::Tensor& log_level, const torch::Tensor& colour, const SurfaceBatch& truth, Validation& sum) {
-  const torch::Tensor error = (log_level - truth.shading.mean(1, true).clamp_min(1e-4).log()) * truth.lit;
-  const torch::Tensor count = truth.lit.sum({1, 2, 3}).clamp_min(1);
+// Of the logarithm, each picture's level apart, summed over pictures.
+double course_error(const torch::Tensor& log_level, const torch::Tensor& light, const torch::Tensor& known) {
+  const torch::Tensor error = (log_level - light.mean(1, true).log()) * known;
+  const torch::Tensor count = known.sum({1, 2, 3}).clamp_min(1);
   const torch::Tensor level = error.sum({1, 2, 3}) / count;
   const torch::Tensor square = error.square().sum({1, 2, 3}) / count - level.square();
-  sum.shading += square.clamp_min(0).sqrt().sum().item<double>();
+  return square.clamp_min(0).sqrt().sum().item<double>();
+}
+
+void add_light(const torch::Tensor& log_level, const torch::Tensor& colour, const SurfaceBatch& truth, Validation& sum) {
+  sum.shading += course_error(log_level, truth.shading.clamp_min(1e-4), truth.lit);
   sum.colour_deg += mean_of(degrees_between(colour, truth.shading), truth.lit);
 }
 
@@ -49,6 +54,10 @@ void add_surface(const net::FaceSurface& found, const Batch& batch, Validation& 
   const torch::Tensor right = found.region.argmax(1, true) == truth.region.to(torch::kLong);
   sum.region_share += mean_of(right.to(torch::kFloat), everywhere);
   add_light(found.log_level, found.colour, truth, sum);
+  if (!found.open_log_level.defined()) return;
+  constexpr double kDark = 1e-2;  // as it is learnt (face_loss.cpp)
+  const torch::Tensor known = (truth.open.amax(1, true) > 0).to(torch::kFloat);
+  sum.open_shading += course_error(found.open_log_level, truth.open.clamp_min(kDark), known);
 }
 
 void add_highlight(const torch::Tensor& found, const Batch& batch, Validation& sum) {
@@ -118,8 +127,9 @@ Validation Validator::measure(const Model& model) const {
   model.module->train();
   const double scale = pictures > 0 ? kCodes / static_cast<double>(pictures) : 0.0;
   const double share = pictures > 0 ? 1 / static_cast<double>(pictures) : 0.0;
-  return {scale * sum.skin,       scale * sum.whole,        scale * sum.black_skin, scale * sum.black_whole,
-          share * sum.normal_deg, share * sum.region_share, share * sum.shading,    share * sum.colour_deg};
+  return {scale * sum.skin,        scale * sum.whole,      scale * sum.black_skin,
+          scale * sum.black_whole, share * sum.normal_deg, share * sum.region_share,
+          share * sum.shading,     share * sum.colour_deg, share * sum.open_shading};
 }
 
 ByteImage Validator::picture(const Model& model, int rows) const {

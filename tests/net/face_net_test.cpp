@@ -52,6 +52,7 @@ TEST_F(FaceNetTest, SaysWhatTheTrainingSays) {
                                              tensor_view(picture.mask), tensor_view(mesh));
   const FaceSurface expected = surface_from_raw(net(input.channels), input.gain);
   const torch::Tensor shading = expected.log_level.exp() * expected.colour;
+  const torch::Tensor open = expected.open_log_level.exp() * expected.open_colour;
   const torch::Tensor region = expected.region.argmax(1);
   const FaceLayers layers = FaceNet(path(), {.threads = 1}).layers(picture.linear, {}, {}, mesh);
   for (int y = 0; y < 8; ++y) {
@@ -61,6 +62,8 @@ TEST_F(FaceNetTest, SaysWhatTheTrainingSays) {
         EXPECT_NEAR(layers.normal_cam(x, y, c), expected.normal[0][c][y][x].item<float>(), 1e-4F);
         const float light = shading[0][c][y][x].item<float>();
         EXPECT_NEAR(layers.shading(x, y, c), light, 1e-4F * (1 + light));
+        const float ball = open[0][c][y][x].item<float>();
+        EXPECT_NEAR(layers.open_shading(x, y, c), ball, 1e-4F * (1 + ball));
       }
       const float spread = expected.spread[0][0][y][x].item<float>();
       EXPECT_NEAR(layers.normal_error_rad(x, y), spread, 1e-4F * (1 + spread));
@@ -68,6 +71,23 @@ TEST_F(FaceNetTest, SaysWhatTheTrainingSays) {
       EXPECT_EQ(layers.region(x, y), region[0][y][x].item<std::int64_t>());
     }
   }
+}
+
+// As trained before there was an open shading.
+TEST_F(FaceNetTest, WeightsWithoutAnOpenShadingHaveTheRest) {
+  UNetOptions before = options;
+  before.out_channels = FaceOutputs::kCountWithoutOpen;
+  std::map<std::string, std::string> metadata = testing::unet_metadata(before);
+  metadata[kArchitectureKey] = kFaceArchitecture;
+  UNet net(before);
+  save_weights(*net, path(), metadata, false);
+  const FaceNet network(path(), {.threads = 1});
+  const FaceLayers layers = network.layers_both_ways(random_picture(16, 8, 0, 1), {}, {}, {});
+  EXPECT_TRUE(layers.open_shading.empty());
+  EXPECT_EQ(layers.shading.width(), 16);
+  const FaceSurface surface =
+      surface_from_raw(torch::zeros({1, FaceOutputs::kCountWithoutOpen, 8, 8}), torch::ones({1, 1, 1, 1}));
+  EXPECT_FALSE(surface.open_log_level.defined());
 }
 
 // A picture as bright again is the same picture to it.
@@ -97,6 +117,7 @@ TEST_F(FaceNetTest, AMirroredPhotoHasTheMirroredLayers) {
       EXPECT_NEAR(other.normal_cam(23 - x, y, 0), -layers.normal_cam(x, y, 0), 1e-6F);
       EXPECT_NEAR(other.normal_cam(23 - x, y, 1), layers.normal_cam(x, y, 1), 1e-6F);
       EXPECT_NEAR(other.shading(23 - x, y, 1), layers.shading(x, y, 1), 1e-5F);
+      EXPECT_NEAR(other.open_shading(23 - x, y, 1), layers.open_shading(x, y, 1), 1e-5F);
       EXPECT_NEAR(other.highlight(23 - x, y, 2), layers.highlight(x, y, 2), 1e-6F);
     }
   }
@@ -128,6 +149,7 @@ TEST_F(FaceNetTest, AGreyPhotoHasGreyShading) {
   for (std::size_t i = 0; i < layers.shading.values().size(); i += 3) {
     EXPECT_EQ(layers.shading.data()[i], layers.shading.data()[i + 1]);
     EXPECT_EQ(layers.shading.data()[i], layers.shading.data()[i + 2]);
+    EXPECT_EQ(layers.open_shading.data()[i], layers.open_shading.data()[i + 1]);
   }
 }
 

@@ -23,11 +23,14 @@ struct Known {
     truth.region = torch::full({1, 1, 4, 4}, static_cast<float>(Region::kCheeks));
     truth.shading = torch::rand({1, 3, 4, 4}) + 0.5;
     truth.lit = torch::ones({1, 1, 4, 4});
+    truth.open = torch::rand({1, 3, 4, 4}) + 0.5;
     found.normal = truth.normal / truth.normal.square().sum(1, true).sqrt();
     found.spread = torch::full({1, 1, 4, 4}, 0.1);
     found.depth = truth.depth_m / net::FaceOutputs::kDepthUnit;
     found.log_level = truth.shading.mean(1, true).log();
     found.colour = truth.shading / truth.shading.mean(1, true);
+    found.open_log_level = truth.open.mean(1, true).log();
+    found.open_colour = truth.open / truth.open.mean(1, true);
     found.region = torch::zeros({1, kRegionCount, 4, 4});
     found.region.select(1, static_cast<int>(Region::kCheeks)).fill_(50);
   }
@@ -37,15 +40,15 @@ struct Known {
 // Nothing but the one weight.
 LossConfig only(double LossConfig::*weight) {
   LossConfig config;
-  config.normal = config.spread = config.depth = config.region = config.shading = config.colour = 0;
+  config.normal = config.spread = config.depth = config.region = config.shading = config.colour = config.open = 0;
   config.*weight = 1;
   return config;
 }
 
 TEST(FaceLoss, WhatIsRightCostsNothing) {
   const Known known;
-  for (const auto weight :
-       {&LossConfig::normal, &LossConfig::depth, &LossConfig::region, &LossConfig::shading, &LossConfig::colour})
+  for (const auto weight : {&LossConfig::normal, &LossConfig::depth, &LossConfig::region, &LossConfig::shading,
+                            &LossConfig::colour, &LossConfig::open})
     EXPECT_NEAR(known.loss(only(weight)), 0, 1e-4);
 }
 
@@ -70,6 +73,18 @@ TEST(FaceLoss, AWrongExposureCostsLessThanAWrongCourse) {
   course.found.log_level = course.found.log_level + 0.3 * torch::tensor({1.0, -1.0}).repeat({8}).view({1, 1, 4, 4});
   EXPECT_NEAR(level.loss(only(&LossConfig::shading)), 0.3 * 0.3, 0.01);
   EXPECT_NEAR(course.loss(only(&LossConfig::shading)), 0.3, 0.01);
+}
+
+TEST(FaceLoss, OfTheOpenShadingCountsWhereItIsKnown) {
+  Known known;
+  const torch::Tensor lean = 0.3 * torch::tensor({1.0, -1.0}).repeat({8}).view({1, 1, 4, 4});
+  known.found.open_log_level = known.found.open_log_level + lean;
+  EXPECT_NEAR(known.loss(only(&LossConfig::open)), 0.3, 0.01);
+  // Off the face it is 0, and a network of before has none.
+  known.truth.open.zero_();
+  EXPECT_NEAR(known.loss(only(&LossConfig::open)), 0, 1e-4);
+  known.found.open_log_level = known.found.open_colour = torch::Tensor();
+  EXPECT_EQ(known.loss(only(&LossConfig::open)), 0);
 }
 
 // Where 2 b is the error that is made.

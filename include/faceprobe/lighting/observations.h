@@ -26,6 +26,9 @@ struct Observations {
   Eigen::MatrixX3f view;       // #patches x 3, unit, from the surface to the camera
   Eigen::MatrixX3f highlight;  // #patches x 3
   Eigen::MatrixX3f shading;    // #patches x 3: diffuse layer divided by albedo; irradiance / pi
+  // #patches x 3: what the shading would be if nothing blocked the light and nothing sent it back, neither the face nor hair nor shoulders.
+  // Solvers do not use it: they have the horizon below. Empty = not known.
+  Eigen::MatrixX3f open_shading;
   // #patches x 3, true where the photo clipped the channel (in pipeline::observe: in over a quarter of the patch): lower bounds there.
   Eigen::Array<bool, Eigen::Dynamic, 3> clipped;
   Eigen::VectorXf roughness;        // #patches, Beckmann m
@@ -44,7 +47,7 @@ struct Observations {
   std::string validate() const;
 };
 
-// One set after the other. Sets with and without horizon mix; where there is none, nothing blocks. Grey if all of them are.
+// One set after the other. Sets with and without horizon mix; where there is none, nothing blocks. Grey if all of them are; an open shading if all have one.
 Observations concatenate(const std::vector<Observations>& sets);
 
 // Whether there are highlights to speak of: a twentieth at least of what skin mirrors of the light that its shading shows, looked at straight on

@@ -29,6 +29,9 @@ struct FaceLayers {
   Image depth_m;           // 1 channel, larger = further from the camera, up to a constant
   Image shading;           // 3 channels, > 0: the diffuse layer over the albedo, irradiance / pi on the picture's scale
   ByteImage region;        // 1 channel, Region
+  // 3 channels, > 0: the shading that would be there if nothing stood in the light's way, neither brow nor shoulder, and sent none back: what a
+  // ball would show. Empty of weights that were not trained for it.
+  Image open_shading = {};
 };
 
 struct FaceNetOptions {

@@ -19,6 +19,7 @@ struct AugmentConfig {
   double grey_share = 0.05;          // of samples without colour
   double no_mask_share = 0.15;       // of samples that are given no face mask
   double occluder_share = 0.1;       // of samples that something plain is put before
+  double backdrop_share = 0;         // of samples that get a plain backdrop in the place of what is behind the person
   double zoom_share = 0.2;           // of samples that are enlarged or made smaller, and moved
   double close_share = 0;            // of samples cut out so that the face fills them, where its mesh is found
   double cut_share = 0.15;           // of samples with sides cut off, as of a face at the edge of its photo
@@ -39,6 +40,7 @@ struct LossConfig {
       1;  // weight of a pixel of mouth, glasses or object in that, of eyes, lips and brows its root; others have 1
   double shading = 0.1;  // weight of the error of the shading's logarithm
   double colour = 0.1;   // weight of the error of the light's colour, a chord of the unit sphere
+  double open = 0.1;     // weight of both errors of the shading that would be there if nothing stood in the light's way
 };
 
 struct TrainConfig {

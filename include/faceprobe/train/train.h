@@ -44,11 +44,12 @@ struct Validation {
   double whole = 0;        // on the whole picture
   double black_skin = 0;   // what an empty layer would have
   double black_whole = 0;  // the same of the whole picture
-  // Of the face network; 0 for the others. albedo_shading has the last two alone, and none of the above.
+  // Of the face network; 0 for the others. albedo_shading has `shading` and `colour_deg` alone, and none of the above.
   double normal_deg = 0;    // mean angle between normals on the face's skin
   double region_share = 0;  // of pixels whose region is right
   double shading = 0;       // root mean square error of the shading's logarithm on skin, its level apart
   double colour_deg = 0;    // mean angle between the light's colours on skin
+  double open_shading = 0;  // as `shading`, of what would be there if nothing stood in the light's way; of face alone
 };
 
 struct TrainRow {

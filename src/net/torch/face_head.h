@@ -13,6 +13,9 @@ struct FaceSurface {
   torch::Tensor log_level;  // N x 1, logarithm of the mean over channels of the shading
   torch::Tensor colour;     // N x 3, of the shading; mean over channels 1, > 0
   torch::Tensor region;     // N x kRegionCount, scores before the softmax
+  // The same two of what the shading would be if nothing stood in the light's way; undefined for a network without.
+  torch::Tensor open_log_level = {};
+  torch::Tensor open_colour = {};
 };
 
 struct FaceInput {
@@ -24,7 +27,7 @@ struct FaceInput {
 FaceInput prepare_face_input(const torch::Tensor& linear, const torch::Tensor& clip, const torch::Tensor& mask,
                              const torch::Tensor& mesh);
 
-// `raw`: N x FaceOutputs::kCount x H x W, of a picture multiplied by `gain`. Throws std::invalid_argument for another number of channels.
+// `raw`: N x FaceOutputs::kCount x H x W, or kCountWithoutOpen, of a picture multiplied by `gain`. Throws std::invalid_argument for another number of channels.
 FaceSurface surface_from_raw(const torch::Tensor& raw, const torch::Tensor& gain);
 
 }  // namespace faceprobe::net
