@@ -7,6 +7,7 @@
 #include "faceprobe/core/region.h"
 #include "faceprobe/eval/sun_metrics.h"
 #include "faceprobe/io/photo.h"
+#include "faceprobe/pipeline/largest_face.h"
 #include "faceprobe/pipeline/observe.h"
 #include "faceprobe/synth/generate.h"
 #include "one_head.h"
@@ -194,7 +195,7 @@ int run(const Options& options) {
         const io::Photo photo = io::photo_from_srgb(sample.photo);
         std::vector<Errors> found;
         for (const pipeline::Estimator& estimator : estimators) {
-          const std::optional<pipeline::FaceEstimate> face = cli::face_in(estimator, photo);
+          const std::optional<pipeline::FaceEstimate> face = pipeline::find_largest_face(estimator, photo);
           if (!face) break;
           found.push_back(errors_of(estimator, *face, face->geometry, face->observations, shot.view, lamp->direction));
           if (found.size() == estimators.size())

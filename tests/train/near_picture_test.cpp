@@ -119,30 +119,6 @@ double off_middle(const TrainingPicture& picture) {
          kPicturePx;
 }
 
-// A backdrop comes behind the person, not over it, and draws nothing that others would have drawn.
-TEST_F(NearPicture, ABackdropIsBehindThePerson) {
-  const synth::ShardReader reader = reader_with_mesh();
-  TrainConfig with = config(0);
-  with.augment.backdrop_share = 1;
-  Random random({4});
-  const TrainingPicture picture = draw_picture(reader, 0, with, random);
-  const TrainingPicture plain = drawn(reader, 0, 4);
-  int behind = 0;
-  for (int y = 0; y < kPicturePx; ++y) {
-    for (int x = 0; x < kPicturePx; ++x) {
-      ASSERT_EQ(picture.region(x, y), plain.region(x, y));
-      if (picture.region(x, y) != static_cast<std::uint8_t>(Region::kNone)) {
-        for (int c = 0; c < 3; ++c) ASSERT_EQ(picture.linear(x, y, c), plain.linear(x, y, c));
-        continue;
-      }
-      behind += picture.linear(x, y, 1) != plain.linear(x, y, 1) ? 1 : 0;
-      EXPECT_EQ(picture.highlight(x, y, 1), 0);
-      EXPECT_LE(picture.linear(x, y, 1), 1);
-    }
-  }
-  EXPECT_GT(behind, 0);
-}
-
 constexpr double kPixel = 1.0 / kPicturePx;  // a box of labels ends on a whole pixel
 
 TEST_F(NearPicture, TheMeshFillsFourFifthsOfThePlainOne) {

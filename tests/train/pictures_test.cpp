@@ -1,4 +1,6 @@
 #include "train/augment.h"
+
+#include "faceprobe/core/region.h"
 #include "train/batch.h"
 #include "train/small_data.h"
 
@@ -52,6 +54,39 @@ TEST(Augment, PicturesHaveTheSizeTheConfigSaysAndStayBounded) {
     ASSERT_EQ(picture.linear.height(), 32);
     for (std::size_t i = 0; i < picture.linear.values().size(); ++i)
       ASSERT_LE(picture.highlight.data()[i], picture.linear.data()[i]) << seed;
+  }
+}
+
+// A backdrop comes behind the person, not over it.
+TEST(Augment, ABackdropIsBehindThePerson) {
+  const DataFolder folder("backdrop", 24, 2);
+  const synth::ShardReader reader(folder.data());
+  TrainConfig config;
+  config.architecture = "face";
+  config.augment = {.mirror = false,
+                    .colour_deviation = 0,
+                    .exposure_deviation = 0,
+                    .grey_share = 0,
+                    .no_mask_share = 0,
+                    .occluder_share = 0,
+                    .zoom_share = 0,
+                    .cut_share = 0};
+  TrainConfig with = config;
+  with.augment.backdrop_share = 1;
+  Random one({4});
+  Random other({4});
+  const TrainingPicture plain = draw_picture(reader, 0, config, one);
+  const TrainingPicture picture = draw_picture(reader, 0, with, other);
+  for (int y = 0; y < 24; ++y) {
+    for (int x = 0; x < 24; ++x) {
+      ASSERT_EQ(picture.region(x, y), plain.region(x, y));
+      if (picture.region(x, y) == static_cast<std::uint8_t>(Region::kNone)) {
+        EXPECT_EQ(picture.highlight(x, y, 1), 0);
+        EXPECT_LE(picture.linear(x, y, 1), 1);
+      } else {
+        EXPECT_EQ(picture.linear(x, y, 1), plain.linear(x, y, 1));
+      }
+    }
   }
 }
 

@@ -212,7 +212,7 @@ TEST(TrainLog, HasALineForEachRowAndACurve) {
   rows[2].validation = {4, 5, 8, 9};
   const std::string csv = to_csv(rows);
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 4);
-  EXPECT_NE(csv.find("150,0.0333333,0.001,20.00,4.0000,5.0000,8.0000,9.0000,0.000,0.0000,0.0000,0.000\n"),
+  EXPECT_NE(csv.find("150,0.0333333,0.001,20.00,4.0000,5.0000,8.0000,9.0000,0.000,0.0000,0.0000,0.000,0.0000\n"),
             std::string::npos)
       << csv;
   const ByteImage picture = draw_curves(rows);
