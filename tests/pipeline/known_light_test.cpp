@@ -59,7 +59,7 @@ TEST(Observe, GathersTheOpenShadingAsTheShading) {
   for (float& value : open.values()) value *= 2;
   const lighting::Observations seen = observe(posed.geometry, lit.highlight, lit.shading, no_flags(posed), 300, 1, open);
   ASSERT_EQ(seen.open_shading.rows(), seen.count());
-  EXPECT_LT((seen.open_shading - 2 * seen.shading).cwiseAbs().maxCoeff(), 1e-5F);
+  EXPECT_LT((seen.open_shading - 2 * seen.shading).cwiseAbs().maxCoeff(), 1e-5F);  // float sums
   EXPECT_EQ(observe(posed.geometry, lit.highlight, lit.shading, no_flags(posed), 300, 1).open_shading.rows(), 0);
   EXPECT_EQ(lighting::concatenate({seen, seen}).open_shading.rows(), 2 * seen.count());
   EXPECT_THROW(observe(posed.geometry, lit.highlight, lit.shading, no_flags(posed), 300, 1, Image(3, 3, 3)),

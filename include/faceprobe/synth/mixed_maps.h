@@ -35,7 +35,7 @@ struct MixOptions {
 };
 
 // Each of the first map's size, of positive mean, named after both. None for no maps. Throws std::invalid_argument for options that do not
-// validate, and for a map of no light.
+// validate, Error(kInput) for a map of no light.
 std::vector<NamedMap> mixed_maps(std::span<const NamedMap> maps, const MixOptions& options);
 
 }  // namespace faceprobe::synth

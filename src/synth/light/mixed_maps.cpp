@@ -2,6 +2,7 @@
 
 #include "faceprobe/core/angles.h"
 #include "faceprobe/core/color.h"
+#include "faceprobe/core/error.h"
 #include "faceprobe/core/random.h"
 
 #include <algorithm>
@@ -28,7 +29,6 @@ void scale(EnvMap& map, double factor) {
 // Luminance to a power, colours as they are, mean luminance 1.
 EnvMap with_contrast(EnvMap map, double exponent) {
   const double before = mean_luminance(map);
-  if (!(before > 0)) throw std::invalid_argument("A map of no light cannot be mixed.");
   Image& radiance = map.radiance();
   for (int y = 0; y < map.height(); ++y) {
     for (int x = 0; x < map.width(); ++x) {
@@ -131,7 +131,12 @@ std::string MixOptions::validate() const {
 std::vector<NamedMap> mixed_maps(std::span<const NamedMap> maps, const MixOptions& options) {
   if (const std::string problem = options.validate(); !problem.empty()) throw std::invalid_argument(problem);
   std::vector<NamedMap> mixed;
-  if (maps.empty()) return mixed;
+  if (maps.empty() || options.count == 0) return mixed;
+  for (const auto& [name, map] : maps) {
+    if (!(mean_luminance(map) > 0))
+      throw Error(ExitCode::kInput,
+                  "The environment map " + name + " holds no light that could be mixed. Leave it out.");
+  }
   mixed.reserve(static_cast<std::size_t>(options.count));
   for (int i = 0; i < options.count; ++i) {
     mixed.push_back(mix(maps, options, Random({options.seed, 0x313C, static_cast<std::uint64_t>(i)})));

@@ -1,6 +1,7 @@
 #include "faceprobe/synth/mixed_maps.h"
 
 #include "faceprobe/core/color.h"
+#include "faceprobe/core/error.h"
 #include "faceprobe/synth/map_light.h"
 #include "synth/light/test_maps.h"
 
@@ -55,7 +56,7 @@ TEST(MixedMaps, WithoutChangesAreTheMap) {
   }
 }
 
-// A mixture with a turned or mirrored map keeps the energy of every row: half of it is the first's, whatever the turn.
+// A map mixed with itself, turned or mirrored, keeps the energy of every row, whatever the turn and the share.
 TEST(MixedMaps, TurnsKeepTheEnergyOfEveryRow) {
   const std::vector<NamedMap> one = {two_maps()[1]};
   const auto row_sum = [](const EnvMap& map, int y) {
@@ -88,7 +89,7 @@ TEST(MixedMaps, RefuseWhatCannotBeMixed) {
   EXPECT_THROW(mixed_maps(maps, {.count = -1}), std::invalid_argument);
   EXPECT_THROW(mixed_maps(maps, {.count = 1, .second = 2}), std::invalid_argument);
   const std::vector<NamedMap> black = {{"black", EnvMap(16, 8)}};
-  EXPECT_THROW(mixed_maps(black, {.count = 1}), std::invalid_argument);
+  EXPECT_THROW(mixed_maps(black, {.count = 1}), Error);
   EXPECT_TRUE(mixed_maps({}, {.count = 5}).empty());
 }
 
