@@ -67,12 +67,16 @@ std::vector<eval::LightMethod> ablation_methods(const RelightRows& rows) {
   changed("highlights alone", [](EstimateOptions& o) { o.solve.shading_weight = 0; });
   changed("shading alone", [](EstimateOptions& o) { o.solve.highlight_weight = 0; });
   changed("highlights weighed as much as shading", [](EstimateOptions& o) { o.solve.highlight_weight = 1; });
-  changed("10 iterations", [](EstimateOptions& o) { o.solve.iterations = 10; });
-  changed("200 iterations", [](EstimateOptions& o) { o.solve.iterations = 200; });
+  for (const int count : {1, 10, 50}) {
+    changed(std::to_string(count) + (count == 1 ? " iteration" : " iterations") + " from the learnt light",
+            [count](EstimateOptions& o) { o.solve.iterations_from_expected = count; });
+  }
   methods.push_back(coarse("768 cells", base, 8));
   // The other way than it is, so that the row stays when the default changes.
   changed(base.solve.compact_light ? "no compact light" : "compact light where the pixels ask for one",
           [](EstimateOptions& o) { o.solve.compact_light = !o.solve.compact_light; });
+  changed("shading as it is seen, with the face's own shadows alone",
+          [](EstimateOptions& o) { o.solve.use_open_shading = false; });
   changed("normals of the mesh", [](EstimateOptions& o) { o.normals = pipeline::NormalSource::kMesh; });
   changed("one albedo a region", [](EstimateOptions& o) { o.shading = pipeline::ShadingSource::kRegions; });
   changed("layers of Yang's separator", [](EstimateOptions& o) { o.classical = highlight::Separator::kYang; });

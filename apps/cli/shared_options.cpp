@@ -9,6 +9,8 @@
 #include "shading_split.h"
 #endif
 
+#include <spdlog/fmt/fmt.h>
+
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -142,7 +144,11 @@ void add_solver_options(CLI::App& command, SharedOptions& options) {
                   "it where that explains the pixels far better: on or off")
       ->type_name("{on,off}")
       ->capture_default_str();
-  command.add_option("--iterations", options.iterations, "Richardson-Lucy iterations, 1 to 10000")->capture_default_str();
+  const lighting::SolveOptions usual;
+  command.add_option("--iterations", options.iterations,
+                     fmt::format("Richardson-Lucy iterations, 1 to 10000; default: {} from the light that --prior net "
+                                 "expects, else {}",
+                                 usual.iterations_from_expected, usual.iterations));
   command.add_option("--size", options.size, "size of the environment map in pixels, twice as wide as high")
       ->type_name("WIDTH[xHEIGHT]")
       ->capture_default_str();
@@ -212,7 +218,7 @@ pipeline::EstimateOptions estimate_options(const SharedOptions& options) {
       one_of(options.prior, "--prior", "net", pipeline::PriorSource::kNet, "smooth", pipeline::PriorSource::kSmooth);
   out.solve.solver = lighting::solver_from_name(options.solver);
   out.solve.compact_light = one_of(options.compact_light, "--compact-light", "on", true, "off", false);
-  out.solve.iterations = options.iterations;
+  if (options.iterations) out.solve.iterations = out.solve.iterations_from_expected = *options.iterations;
   out.map_width = parse_map_width(options.size);
   out.layer_px = options.layer_px;
   out.threads = options.threads;

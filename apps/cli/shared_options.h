@@ -24,7 +24,7 @@ struct SharedOptions {
   std::string prior = "net";
   std::string compact_light = pipeline::EstimateOptions{}.solve.compact_light ? "on" : "off";
   std::optional<double> focal_px;
-  int iterations = pipeline::EstimateOptions{}.solve.iterations;
+  std::optional<int> iterations;  // none = the defaults, with and without a light that is expected
   std::string size = "256";
   int layer_px = pipeline::EstimateOptions{}.layer_px;
   int threads = 0;

@@ -25,7 +25,6 @@ struct Options {
   std::string config;
   std::string device = "auto";
   std::vector<std::string> scenes;
-  std::vector<std::string> more;
   bool json = false;
   train::TrainRun run;
 };
@@ -76,10 +75,11 @@ int run(Options options) {
   const std::string config_json = config_text(options.config);
   if (options.net != "sky" && options.net != "gardner" && !options.scenes.empty())
     throw Error(ExitCode::kUsage, "train " + options.net + " takes no --scenes; gardner and sky do.");
-  if (options.net != "light" && !options.more.empty())
-    throw Error(ExitCode::kUsage, "train " + options.net + " takes no --more; light does.");
-  if (options.net != "highlight" && options.net != "face") refuse_options_of_highlight(options);
-  if (options.net == "light") return train_light(options.run, options.more, config_json);
+  const bool reads_layers = options.net == "highlight" || options.net == "face";
+  if (!reads_layers && options.net != "light" && !options.run.more_data.empty())
+    throw Error(ExitCode::kUsage, "train " + options.net + " takes no --more; highlight, face and light do.");
+  if (!reads_layers) refuse_options_of_highlight(options);
+  if (options.net == "light") return train_light(options.run, config_json);
 #ifndef FACEPROBE_LEAN
   if (options.net == "gardner") return train_gardner(options.run, config_json, options.scenes);
   if (options.net == "legendre") return train_legendre(options.run, config_json);
@@ -126,7 +126,9 @@ void add_train(CLI::App& program, Action& action) {
   command->add_option("--data", options->run.data, "folder that `faceprobe synth` wrote; of maps for gardner and sky")
       ->type_name("DIR")
       ->required();
-  command->add_option("--more", options->more, "light: further such folders, learnt from as well; default: none")
+  command
+      ->add_option("--more", options->run.more_data,
+                   "highlight, face and light: further such folders, learnt from as well; default: none")
       ->type_name("DIR");
   command
       ->add_option("--validation", options->run.validation_data,

@@ -7,7 +7,7 @@
 
 namespace faceprobe::cli {
 
-int train_light(const train::TrainRun& options, const std::vector<std::string>& more, const std::string& config) {
+int train_light(const train::TrainRun& options, const std::string& config) {
   if (!options.start.empty() || options.repeat_batch) {
     throw Error(ExitCode::kUsage,
                 "The light prior is trained from the start in minutes; --start and --repeat-batch are for the other "
@@ -16,7 +16,7 @@ int train_light(const train::TrainRun& options, const std::vector<std::string>& 
   train::LightRun run;
   if (!config.empty()) run.config = train::light_config_from_json(config);
   run.data = options.data;
-  run.more_data.assign(more.begin(), more.end());
+  run.more_data = options.more_data;
   run.validation_data = options.validation_data;
   run.folder = options.folder;
   run.threads = options.threads;

@@ -19,6 +19,7 @@ std::string SolveOptions::validate() const {
   if (iterations < 1 || iterations > 10'000) {
     return "iterations must be from 1 to 10000, found " + std::to_string(iterations) + ".";
   }
+  if (iterations_from_expected < 1) return "iterations_from_expected must be 1 or more.";
   if (!(highlight_weight >= 0 && shading_weight >= 0 && highlight_weight + shading_weight > 0 &&
         highlight_weight + shading_weight < 1e6F)) {
     return "The weights of highlights and shading must not be negative, nor both zero.";

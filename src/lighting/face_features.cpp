@@ -58,15 +58,17 @@ const std::array<int, kFeatureCells>& mirror_table() {
 }
 
 // What the physics alone make of it, coarsely.
-Eigen::VectorXf solved_features(const Observations& observations, float level) {
+Eigen::VectorXf solved_features(const Observations& observations, const Eigen::MatrixX3f& shading, float level) {
   Observations open = observations;
   open.horizon.resize(0, kHorizonAzimuths);
+  open.shading = shading;
+  open.open_shading.resize(0, 3);
   const SolveOptions options{.nside = 8, .iterations = 30, .compact_light = false, .threads = 1};
   const Eigen::MatrixX3f light = solve_transport(open, options).radiance / level;
   Eigen::Matrix<float, kFeatureCells, 3, Eigen::RowMajor> cells =
       grid_from_grid(light, SphereGrid(options.nside), feature_grid());
   cells = cells.cwiseMax(0.0F).cwiseMin(kBrightestLight).cwiseSqrt();
-  return Eigen::Map<const Eigen::VectorXf>(cells.data(), kSolvedFeatures);
+  return Eigen::Map<const Eigen::VectorXf>(cells.data(), cells.size());
 }
 
 }  // namespace
@@ -88,23 +90,34 @@ Eigen::VectorXf face_features(const Observations& observations) {
   Eigen::VectorXf features = Eigen::VectorXf::Zero(kFaceFeatures);
   const float level = shading_level(observations);
   if (!(level > 0)) return features;
+  const bool has_open = observations.open_shading.rows() > 0;
+  const Eigen::MatrixX3f& open_shading = has_open ? observations.open_shading : observations.shading;
   Cells shading = Cells::Zero();
   Cells highlight = Cells::Zero();
+  Cells open = Cells::Zero();
   for (Eigen::Index i = 0; i < observations.count(); ++i) {
     const Eigen::RowVector3f normal = observations.normal.row(i);
     const Eigen::RowVector3f view = observations.view.row(i);
     const float weight = observations.weight[i];
     if (!observations.clipped.row(i).any()) add(normal, observations.shading.row(i) / level, weight, shading);
+    if (has_open || !observations.clipped.row(i).any()) add(normal, open_shading.row(i) / level, weight, open);
     // A clipped highlight says that it is at least so bright.
     add(2 * normal.dot(view) * normal - view, observations.highlight.row(i) / level, weight, highlight);
   }
   const float enough = kEnoughWeight * observations.weight.sum();
   finish(enough, 1, shading);
   finish(enough, kHighlightScale, highlight);
-  constexpr int kHalf = kCellFeatures / 2;
-  features.head<kHalf>() = Eigen::Map<const Eigen::VectorXf>(shading.data(), kHalf);
-  features.segment<kHalf>(kHalf) = Eigen::Map<const Eigen::VectorXf>(highlight.data(), kHalf);
-  features.tail<kSolvedFeatures>() = solved_features(observations, level);
+  finish(enough, 1, open);
+  Eigen::Index at = 0;
+  for (const Cells* cells : {&shading, &highlight, &open}) {
+    features.segment(at, cells->size()) = Eigen::Map<const Eigen::VectorXf>(cells->data(), cells->size());
+    at += cells->size();
+  }
+  for (const Eigen::MatrixX3f* layer : {&observations.shading, &open_shading}) {
+    const Eigen::VectorXf solved = solved_features(observations, *layer, level);
+    features.segment(at, solved.size()) = solved;
+    at += solved.size();
+  }
   return features;
 }
 
@@ -118,16 +131,15 @@ Eigen::MatrixXf mirrored_cells(const Eigen::MatrixXf& cells) {
 Eigen::VectorXf mirrored_features(const Eigen::VectorXf& features) {
   if (features.size() != kFaceFeatures) throw std::invalid_argument("Mirroring needs all features.");
   Eigen::VectorXf out(kFaceFeatures);
-  for (int half = 0; half < 2; ++half) {
+  // Blocks of so many numbers a cell.
+  const auto turn = [&](int begin, int numbers) {
     for (int j = 0; j < kFeatureCells; ++j) {
       const int from = mirror_table()[static_cast<std::size_t>(j)];
-      out.segment<4>(4 * (half * kFeatureCells + j)) = features.segment<4>(4 * (half * kFeatureCells + from));
+      out.segment(begin + numbers * j, numbers) = features.segment(begin + numbers * from, numbers);
     }
-  }
-  using Solved = Eigen::Matrix<float, kFeatureCells, 3, Eigen::RowMajor>;
-  const Solved solved(features.data() + kCellFeatures);
-  const Solved turned_light = mirrored_cells(solved);
-  out.tail<kSolvedFeatures>() = Eigen::Map<const Eigen::VectorXf>(turned_light.data(), kSolvedFeatures);
+  };
+  for (int layer = 0; layer < kGatheredLayers; ++layer) turn(4 * layer * kFeatureCells, 4);
+  for (int light = 0; light < kSolvedLights; ++light) turn(kCellFeatures + 3 * light * kFeatureCells, 3);
   return out;
 }
 

@@ -207,8 +207,11 @@ Light solve_transport(const Observations& observations, const SolveOptions& opti
     throw std::invalid_argument("The expected light must have one radiance per cell, not negative.");
   if (observations.count() == 0) return light;
 
-  const Transport transport = build_transport(observations, grid, options.threads, options.fresnel);
+  const bool open = options.use_open_shading && !options.compact_light && observations.open_shading.rows() > 0;
+  const Transport transport = build_transport(observations, grid, options.threads, options.fresnel,
+                                              open ? DiffuseRows::kOpenShading : DiffuseRows::kShading);
   Observations patches = observations;
+  if (open) patches.shading = observations.open_shading;
   const float weight = patches.weight.sum();
   // Uniform radiance L gives a shading of at most L, so the mean shading is the right order of magnitude to start from.
   float level = weighted_sum(patches.weight, patches.shading * kLuminanceWeights) / weight;
@@ -231,8 +234,10 @@ Light solve_transport(const Observations& observations, const SolveOptions& opti
   const Rows rows = stack(patches, transport, options);
   if (rows.transport.rows() == 0) return light;
   const Flags bound = rows.bound.rowwise().any();
+  const int iterations =
+      has_expected ? std::min(options.iterations, options.iterations_from_expected) : options.iterations;
   const RichardsonLucyResult solved = richardson_lucy(rows.transport, rows.weight, rows.data * kLuminanceWeights, bound,
-                                                      start, rl_options(options, options.iterations));
+                                                      start, rl_options(options, iterations));
   const Eigen::VectorXf found = solved.estimate.col(0);
   if (observations.grey) {
     light.radiance = found.replicate(1, 3);

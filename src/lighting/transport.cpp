@@ -10,12 +10,14 @@
 
 namespace faceprobe::lighting {
 
-Transport build_transport(const Observations& observations, const SphereGrid& grid, int threads, Fresnel fresnel) {
-  return build_transport(observations, grid.directions(), static_cast<float>(grid.cell_solid_angle()), threads, fresnel);
+Transport build_transport(const Observations& observations, const SphereGrid& grid, int threads, Fresnel fresnel,
+                          DiffuseRows diffuse) {
+  return build_transport(observations, grid.directions(), static_cast<float>(grid.cell_solid_angle()), threads, fresnel,
+                         diffuse);
 }
 
 Transport build_transport(const Observations& observations, const Eigen::MatrixX3f& directions, float solid_angle_sr,
-                          int threads, Fresnel fresnel) {
+                          int threads, Fresnel fresnel, DiffuseRows diffuse_rows) {
   if (const std::string fault = observations.validate(); !fault.empty()) throw std::invalid_argument(fault);
   const bool shadowed = observations.horizon.rows() > 0;
   const std::vector<HorizonPlace> places = shadowed ? horizon_places(directions) : std::vector<HorizonPlace>();
@@ -39,9 +41,9 @@ Transport build_transport(const Observations& observations, const Eigen::MatrixX
         if (cosine <= 0.0F) continue;
         const float visible =
             solid_angle_sr * (shadowed ? profile_visibility(profile, places[static_cast<std::size_t>(j)]) : 1.0F);
-        if (visible <= 0.0F) continue;
-        highlight[j] = visible * specular_lobe(normal, view, light, skin);
-        diffuse[j] = visible * cosine / static_cast<float>(kPi);
+        const float lit = diffuse_rows == DiffuseRows::kOpenShading ? solid_angle_sr : visible;
+        diffuse[j] = lit * cosine / static_cast<float>(kPi);
+        if (visible > 0.0F) highlight[j] = visible * specular_lobe(normal, view, light, skin);
       }
     }
   });

@@ -142,6 +142,7 @@ Json options_json(const EstimateOptions& options) {
           {"prior", prior_name(options.asks_prior() ? PriorSource::kNet : PriorSource::kSmooth)},
           {"compact_light", options.solve.compact_light && options.solve.solver == lighting::Solver::kTransport},
           {"iterations", options.solve.iterations},
+          {"iterations_from_expected", options.solve.iterations_from_expected},
           {"nside", options.solve.nside},
           {"map_size_px", {options.map_width, options.map_width / 2}},
           {"layer_px", options.layer_px},

@@ -28,6 +28,19 @@ constexpr const char* kRowsTable = "rows";
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
+synth::ShardReader data_of_run(const TrainRun& run) {
+  if (run.more_data.empty()) {
+    synth::ShardReader data(run.data);
+    require_meshes(data, run.data, run.config);
+    return data;
+  }
+  std::vector<std::filesystem::path> folders = {run.data};
+  folders.insert(folders.end(), run.more_data.begin(), run.more_data.end());
+  // Each by itself, so that the sentence names the one that lacks something.
+  for (const std::filesystem::path& folder : folders) require_meshes(synth::ShardReader(folder), folder, run.config);
+  return synth::ShardReader(folders);
+}
+
 // What the checkpoint has to agree with.
 std::string run_json(const TrainRun& run, const synth::ShardReader& data) {
   const nlohmann::ordered_json json = {{"config", nlohmann::ordered_json::parse(to_json(run.config))},
@@ -72,9 +85,8 @@ DescentOptions descent_options(const TrainConfig& config) {
 class Training {
  public:
   Training(const TrainRun& run, const TrainHooks& hooks)
-      : run_(run), hooks_(hooks), device_(net::torch_device(run.device)), data_(run.data), model_(model_of_run(run)),
+      : run_(run), hooks_(hooks), device_(net::torch_device(run.device)), data_(data_of_run(run)), model_(model_of_run(run)),
         descent_(model_.module, descent_options(run.config)) {
-    require_meshes(data_, run.data, run.config);
     identity_ = run_json(run, data_);
     if (run.repeat_batch) return;
     io::create_folder(run.folder);

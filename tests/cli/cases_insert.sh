@@ -153,7 +153,7 @@ case_insert_odd_input() {
 
 case_relight() {
   expect_exit 0 relight "$photo" "${quick[@]}" --dim 1 -o dimmed.png
-  expect_difference "$photo" dimmed.png 120 100 400 460  # the face, and nothing else
+  expect_difference "$photo" dimmed.png 150 110 380 350  # the face, and nothing else
   expect_exit 0 relight "$photo" "${quick[@]}" --dim 1 -o dimmed.png --json
   expect_json 1 "$work/stdout" faces
   # The same light named with its share, and half of it.
@@ -161,7 +161,7 @@ case_relight() {
   expect_exit 0 relight --dim 1=1 "$photo" "${quick[@]}" --deterministic -o again.png
   cmp dimmed.png again.png || fail "--dim 1=1 is not --dim 1"
   expect_exit 0 relight "$photo" "${quick[@]}" --dim 1=0.5 -o again.png
-  expect_difference dimmed.png again.png 120 100 400 460
+  expect_difference dimmed.png again.png 150 110 380 350
   rm again.png
   expect_refused 2 "would stay as it is" relight "$photo" "${quick[@]}" -o same.png
   expect_exit 0 estimate "$photo" "${quick[@]}" -o light.exr
@@ -182,9 +182,10 @@ case_relight_refusals() {
   expect_files "$work" stdout stderr
 }
 
-# The same face twice: what it sees comes from the same directions, so from afar.
+# The same face twice: what it sees comes from the same directions, so from afar. A face with one main light: of a soft sky each copy, off the
+# axis as it is in the pair, has another place for brightest.
 case_triangulate() {
-  "$picture_tool" double "$photo" pair.png
+  "$picture_tool" double "$data/samples/astronaut.png" pair.png
   expect_exit 0 triangulate pair.png "${quick[@]}" -o "not/there yet" --json
   expect_files "not/there yet" room.json room.gltf room.png
   cmp "$work/stdout" "not/there yet/room.json" || fail "--json prints something else than room.json holds"

@@ -99,6 +99,8 @@ case_face_network() {
   expect_json 2 stdout found
   json stdout seconds >/dev/null || fail "not said how long it took"
   expect_exit 0 train face --config face.json --data faces --validation faces -o run --threads 1
+  expect_refused 6 "other data" train face --config face.json --data faces --more faces -o run
+  expect_exit 0 train face --config face.json --data faces --more faces -o twice --threads 1
   expect_exit 0 eval geometry --data faces --weights mine=run/weights.safetensors --samples 4 -o scores --threads 1
   expect_stdout "| mine |"
   expect_stdout "| mesh |"

@@ -37,6 +37,19 @@ TEST(FaceFeatures, HoldShadingByNormalAndHighlightsByMirrorDirection) {
   EXPECT_LT(cell_of(features, 0, {0, 0, -1})[3], 1e-3F);
 }
 
+TEST(FaceFeatures, HaveTheOpenShadingWhereItIsKnown) {
+  Observations face = testing::ellipsoid_face();
+  face.shading.setConstant(2);
+  // Without one, the shading stands for it.
+  const Eigen::VectorXf without = face_features(face);
+  EXPECT_EQ(cell_of(without, 2, {0, 0, 1}), cell_of(without, 0, {0, 0, 1}));
+  face.open_shading.setConstant(face.count(), 3, 3);
+  const Eigen::VectorXf features = face_features(face);
+  const Eigen::Vector4f open = cell_of(features, 2, {0, 0, 1});
+  EXPECT_NEAR(open[1], std::sqrt(1.5F * open[3]), 1e-5F);
+  EXPECT_EQ(cell_of(features, 0, {0, 0, 1}), cell_of(without, 0, {0, 0, 1}));
+}
+
 TEST(FaceFeatures, TheScaleOfTheLightDoesNotMatter) {
   Observations face = lit_face({1, 1, 1});
   const Eigen::VectorXf once = face_features(face);

@@ -137,9 +137,30 @@ TEST(Solve, WhatIsObservedOverrulesWhatIsExpected) {
   light_up(face, grid, lamp(grid, towards, 8, 0.05F));
   const Eigen::MatrixX3f wrong = lamp(grid, direction_from_angles(-30, 0), 15, 0.3F);
   SolveOptions options;
-  options.iterations = 200;  // to walk away from the wrong lamp
+  options.iterations = options.iterations_from_expected = 200;  // to walk away from the wrong lamp
   const Light light = solve(face, options, wrong);
   EXPECT_LT(angle_between_deg(brightest_direction(light.radiance, grid), towards), 10);  // the disc is 16 degrees wide
+}
+
+TEST(Solve, FewStepsAreTakenFromWhatIsExpected) {
+  const SphereGrid grid(8);
+  Observations face = ellipsoid_face(20);
+  const Eigen::MatrixX3f map = lamp(grid, {0.4, 0.5, 0.8}, 12, 0.2F);
+  light_up(face, grid, map);
+  SolveOptions options;
+  options.nside = 8;
+  options.iterations_from_expected = 3;
+  const auto with = [&](int iterations) {
+    options.iterations = iterations;
+    return solve(face, options, map).radiance;
+  };
+  EXPECT_TRUE(with(50) == with(3));
+  EXPECT_FALSE(with(3) == with(2));
+  // Without one all are.
+  options.iterations = 50;
+  const Eigen::MatrixX3f many = solve(face, options).radiance;
+  options.iterations_from_expected = 50;
+  EXPECT_TRUE(solve(face, options).radiance == many);
 }
 
 TEST(Solve, TheScaleOfWhatIsExpectedDoesNotMatter) {
@@ -152,6 +173,36 @@ TEST(Solve, TheScaleOfWhatIsExpectedDoesNotMatter) {
   EXPECT_LT((once.radiance - more.radiance).norm() / once.radiance.norm(), 1e-3F);  // float
   EXPECT_THROW(solve(face, {}, Eigen::MatrixX3f::Ones(5, 3)), std::invalid_argument);
   EXPECT_THROW(solve(face, {}, -map), std::invalid_argument);
+}
+
+TEST(Solve, TheOpenShadingIsExplainedWhereItIsKnown) {
+  const SphereGrid grid(8);
+  const Eigen::Vector3d truth = direction_from_angles(0, 30);
+  Observations face = ellipsoid_face();
+  light_up(face, grid, lamp(grid, truth, 15, 0.05F));
+  SolveOptions options = for_exact_layers();
+  options.nside = 8;
+  options.highlight_weight = 0;
+  const Light unspoilt = solve(face, options);
+  // Hair over the right half, of which no horizon tells.
+  face.open_shading = face.shading;
+  for (Eigen::Index i = 0; i < face.count(); ++i) {
+    if (face.normal(i, 0) > 0) face.shading.row(i) *= 0.4F;
+  }
+  EXPECT_TRUE(solve(face, options).radiance == unspoilt.radiance);
+
+  const auto to_the_right = [&](const Light& light) {
+    return (grid.directions().transpose() * light.radiance.col(0)).normalized().x();
+  };
+  EXPECT_NEAR(to_the_right(unspoilt), 0, 0.01);  // the lamp's cells are as many on both sides
+  options.use_open_shading = false;
+  const Light fooled = solve(face, options);
+  EXPECT_LT(to_the_right(fooled), -0.1);
+  // A compact light shows by its shadows, which the open shading has not.
+  options.use_open_shading = options.compact_light = true;
+  Observations shadows_alone = face;
+  shadows_alone.open_shading.resize(0, 3);
+  EXPECT_TRUE(solve(face, options).radiance == solve(shadows_alone, options).radiance);
 }
 
 TEST(Solve, GreyInGreyOut) {
@@ -307,6 +358,7 @@ TEST(Solve, NamesAndOptionsAreChecked) {
   EXPECT_THROW(solver_from_name("magic"), Error);
   EXPECT_THROW(solve(ellipsoid_face(8), {.nside = 1}), std::invalid_argument);
   EXPECT_THROW(solve(ellipsoid_face(8), {.iterations = 0}), std::invalid_argument);
+  EXPECT_THROW(solve(ellipsoid_face(8), {.iterations_from_expected = 0}), std::invalid_argument);
 }
 
 }  // namespace

@@ -83,6 +83,18 @@ TEST(Transport, HorizonCutsWhatItShould) {
   EXPECT_GT(rows(0, grid.cell_of(Eigen::Vector3f(-1, 0, 0.7F))), 0.0F);
 }
 
+TEST(Transport, OpenRowsAreWithoutTheHorizonAndLeaveTheHighlights) {
+  const SphereGrid grid(4);
+  const Observations bare = testing::ellipsoid_face(12);
+  Observations face = bare;
+  face.horizon.setConstant(face.count(), kHorizonAzimuths, 0.3F);
+  const Transport shadowed = build_transport(face, grid);
+  const Transport open = build_transport(face, grid, 0, Fresnel::kSchlick, DiffuseRows::kOpenShading);
+  EXPECT_TRUE(open.diffuse() == build_transport(bare, grid).diffuse());
+  EXPECT_TRUE(open.highlight() == shadowed.highlight());
+  EXPECT_FALSE(open.diffuse() == shadowed.diffuse());
+}
+
 TEST(Transport, SameForAnyNumberOfThreads) {
   const SphereGrid grid(4);
   const Observations face = testing::ellipsoid_face(12);

@@ -24,7 +24,7 @@ shading: what splits the diffuse layer: "net" or "regions" (one albedo a region)
 prior: what light the transport solver starts from: "net" or "smooth".
 solver: "transport", or "paper" (the published scheme).
 compact_light: whether the transport solver tries the dominant light as a small disc and keeps it where the pixels ask for one.
-iterations: of Richardson-Lucy.
+iterations: of Richardson-Lucy; else few from the light that the prior expects, more without one (options of the report).
 size: width of the environment maps, a multiple of 4, or "WIDTHxHEIGHT" with WIDTH = 2 HEIGHT.
 layer_px: long side of the layers; they are never enlarged.
 focal_px: focal length in pixels of the photo; else from EXIF, else a 50 mm lens.

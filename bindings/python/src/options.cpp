@@ -85,7 +85,7 @@ pipeline::EstimateOptions options_from(const OptionValues& values) {
       one_of(values.prior, "prior", "net", pipeline::PriorSource::kNet, "smooth", pipeline::PriorSource::kSmooth);
   out.solve.solver = lighting::solver_from_name(values.solver);
   out.solve.compact_light = values.compact_light;
-  out.solve.iterations = values.iterations;
+  if (values.iterations) out.solve.iterations = out.solve.iterations_from_expected = *values.iterations;
   out.map_width = width_of(values.size);
   out.layer_px = values.layer_px;
   out.threads = values.threads;

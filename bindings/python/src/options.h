@@ -32,7 +32,7 @@ struct OptionValues {
   std::optional<std::filesystem::path> weights;
   std::string geometry, shading, prior, solver;
   bool compact_light = false;
-  int iterations = 0;
+  std::optional<int> iterations;
   MapSize size;
   int layer_px = 0;
   std::optional<double> focal_px;
@@ -55,7 +55,7 @@ void with_option_arguments(const Define& define) {
   define(py::kw_only(), py::arg("separator") = usual.separator_name(), py::arg("weights") = py::none(),
          py::arg("geometry") = "net", py::arg("shading") = "net", py::arg("prior") = "net",
          py::arg("solver") = std::string(lighting::solver_name(usual.solve.solver)),
-         py::arg("compact_light") = usual.solve.compact_light, py::arg("iterations") = usual.solve.iterations,
+         py::arg("compact_light") = usual.solve.compact_light, py::arg("iterations") = py::none(),
          py::arg("size") = usual.map_width, py::arg("layer_px") = usual.layer_px, py::arg("focal_px") = py::none(),
          py::arg("landmarks") = py::none(), py::arg("threads") = usual.threads,
          py::arg("deterministic") = usual.deterministic, py::arg("device") = "auto");
@@ -66,7 +66,7 @@ template <class... Front, class Call>
 auto taking_options(Call call) {
   return [call](Front... front, std::string separator, std::optional<std::filesystem::path> weights,
                 std::string geometry, std::string shading, std::string prior, std::string solver, bool compact_light,
-                int iterations, MapSize size, int layer_px, std::optional<double> focal_px,
+                std::optional<int> iterations, MapSize size, int layer_px, std::optional<double> focal_px,
                 std::optional<Landmarks> landmarks, int threads, bool deterministic, std::string device) {
     return call(std::move(front)...,
                 options_from({std::move(separator), std::move(weights), std::move(geometry), std::move(shading),

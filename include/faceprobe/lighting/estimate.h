@@ -34,6 +34,9 @@ struct SolveOptions {
   Solver solver = Solver::kTransport;
   int nside = 16;       // of the sphere grid the light is solved on: 3072 cells
   int iterations = 50;  // Richardson-Lucy; 20 - 50 is the knee for noisy data
+  // The transport solver's where a light is expected, if fewer than `iterations`: what it begins with is near the answer then, and layers of a photo
+  // are less to be trusted than that in what many steps would still find in them (the ablations of `eval paper`).
+  int iterations_from_expected = 3;
   // Transport solver only. Influence of all highlight rows and of all shading rows on the estimate; 0 leaves a kind out. The
   // defaults suit layers from the classical separators, whose highlights are rough (`eval direction`); with exact layers the
   // highlights deserve more than the shading (bench_best_case).
@@ -48,6 +51,9 @@ struct SolveOptions {
   // it instead of soaking up the errors of the few grazing patches that see them.
   float prior_weight = 0.1F;
   Fresnel fresnel = Fresnel::kSchlick;  // of the highlights
+  // Transport solver only. The shading rows are those of the open shading where the observations have one: what hair and shoulders keep from a face
+  // and what they send back, no horizon of the face itself can tell. Not with a compact light, which shows by the shadows.
+  bool use_open_shading = true;
   // Steps of the per-channel stage that colours the luminance solution; few keep the colour smooth over the sphere.
   int colour_iterations = 6;
   // Transport solver only, with shading rows. Whether the dominant light is tried as a small disc in place of the glow that it was found as, and

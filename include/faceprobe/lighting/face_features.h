@@ -14,9 +14,11 @@ namespace faceprobe::lighting {
 
 inline constexpr int kFeatureNside = 4;                                   // of core/sphere_grid.h
 inline constexpr int kFeatureCells = 12 * kFeatureNside * kFeatureNside;  // 192
-inline constexpr int kCellFeatures = 2 * kFeatureCells * 4;
-inline constexpr int kSolvedFeatures = 3 * kFeatureCells;
-inline constexpr int kFaceFeatures = kCellFeatures + kSolvedFeatures;  // 2112
+inline constexpr int kGatheredLayers = 3;  // shading, highlights, open shading
+inline constexpr int kCellFeatures = kGatheredLayers * kFeatureCells * 4;
+inline constexpr int kSolvedLights = 2;  // from the shading, from the open shading
+inline constexpr int kSolvedFeatures = kSolvedLights * 3 * kFeatureCells;
+inline constexpr int kFaceFeatures = kCellFeatures + kSolvedFeatures;  // 3456
 // What highlights are multiplied by: they are weaker than shading, and this brings both to one size.
 inline constexpr float kHighlightScale = 3.0F;
 

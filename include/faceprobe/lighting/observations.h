@@ -27,7 +27,7 @@ struct Observations {
   Eigen::MatrixX3f highlight;  // #patches x 3
   Eigen::MatrixX3f shading;    // #patches x 3: diffuse layer divided by albedo; irradiance / pi
   // #patches x 3: what the shading would be if nothing blocked the light and nothing sent it back, neither the face nor hair nor shoulders.
-  // Solvers do not use it: they have the horizon below. Empty = not known.
+  // The transport solver explains it in the place of the shading. Empty = not known.
   Eigen::MatrixX3f open_shading;
   // #patches x 3, true where the photo clipped the channel (in pipeline::observe: in over a quarter of the patch): lower bounds there.
   Eigen::Array<bool, Eigen::Dynamic, 3> clipped;

@@ -4,7 +4,8 @@
 //   highlight_i = sum_j S_ij e_j      S_ij = f(L_j, V_i) (N_i.L_j) visible_ij d_omega
 //   shading_i   = sum_j D_ij e_j      D_ij = (N_i.L_j) visible_ij d_omega / pi
 //
-// Nothing is warped: every pixel keeps its own normal, view vector, roughness, Fresnel term and horizon.
+// Nothing is warped: every pixel keeps its own normal, view vector, roughness, Fresnel term and horizon. Rows of the open shading
+// (Observations::open_shading) are D with visible = 1.
 
 #include "faceprobe/core/sphere_grid.h"
 #include "faceprobe/lighting/observations.h"
@@ -28,12 +29,16 @@ struct Transport {
 // Schlick's, or as at normal incidence everywhere, as the paper's lobes are: to measure what the term is worth.
 enum class Fresnel : std::uint8_t { kSchlick, kConstant };
 
+// What D predicts: the shading with the face's own shadows, or the shading with nothing in the light's way.
+enum class DiffuseRows : std::uint8_t { kShading, kOpenShading };
+
 // Both at once, which halves the visibility tests. Throws std::invalid_argument for observations that do not validate.
 Transport build_transport(const Observations& observations, const SphereGrid& grid, int threads = 0,
-                          Fresnel fresnel = Fresnel::kSchlick);
+                          Fresnel fresnel = Fresnel::kSchlick, DiffuseRows diffuse = DiffuseRows::kShading);
 // The same of lights anywhere. `directions`: #lights x 3, unit, from the face to the light; each has the same solid angle, in steradians, and is
 // small beside what skin can tell apart. #patches x #lights.
 Transport build_transport(const Observations& observations, const Eigen::MatrixX3f& directions, float solid_angle_sr,
-                          int threads = 0, Fresnel fresnel = Fresnel::kSchlick);
+                          int threads = 0, Fresnel fresnel = Fresnel::kSchlick,
+                          DiffuseRows diffuse = DiffuseRows::kShading);
 
 }  // namespace faceprobe::lighting

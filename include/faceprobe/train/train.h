@@ -25,6 +25,7 @@ namespace faceprobe::train {
 struct TrainRun {
   TrainConfig config;
   std::filesystem::path data;
+  std::vector<std::filesystem::path> more_data;  // further such folders, learnt from as well
   std::filesystem::path validation_data;  // empty: no validation
   std::filesystem::path folder;           // made; a run that is there goes on if its config and data are the same
   std::filesystem::path start;  // weights to begin with, of a network nowhere wider; empty: drawn from the seed

@@ -3,7 +3,9 @@
 #include "faceprobe/synth/shard.h"
 
 #include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 namespace faceprobe::synth {
 namespace {
@@ -114,6 +116,23 @@ ShardReader::ShardReader(const std::filesystem::path& folder) {
       throw Error(ExitCode::kInput, mesh.string() + " is of another shard. Run `faceprobe mesh` again.");
   }
   if (meshes_.size() != shards_.size()) meshes_.clear();
+}
+
+ShardReader::ShardReader(const std::vector<std::filesystem::path>& folders) {
+  if (folders.empty()) throw std::invalid_argument("A data set needs a folder.");
+  nlohmann::json recipes = nlohmann::json::array();
+  bool all_meshes = true;
+  for (const std::filesystem::path& folder : folders) {
+    ShardReader one(folder);
+    recipes.push_back(one.recipe_.empty() ? nlohmann::json() : nlohmann::json::parse(one.recipe_));
+    const auto first = static_cast<int>(shards_.size());
+    for (const auto& [shard, number] : one.place_) place_.emplace_back(first + shard, number);
+    std::ranges::move(one.shards_, std::back_inserter(shards_));
+    all_meshes = all_meshes && one.has_meshes();
+    std::ranges::move(one.meshes_, std::back_inserter(meshes_));
+  }
+  if (!all_meshes) meshes_.clear();
+  recipe_ = recipes.dump();
 }
 
 std::pair<const MappedTensors*, int> ShardReader::place(int sample) const {

@@ -157,6 +157,34 @@ TEST_F(Shards, MeshesComeBackForTheSamplesOfTheirViews) {
   EXPECT_THROW(ShardReader{folder_}, Error);
 }
 
+TEST_F(Shards, SeveralFoldersAreReadAsOne) {
+  Random random({7});
+  std::vector<std::filesystem::path> folders;
+  std::vector<ViewSamples> views;
+  std::vector<FoundMesh> meshes;
+  for (const int samples : {2, 1}) {
+    const std::filesystem::path folder = folder_ / std::to_string(samples);
+    const ShardWriter writer(folder, spec());
+    views.push_back(exact_view(random, samples, 1));
+    meshes.push_back({exact_image(random, kSize, kSize, 3), ByteImage(kSize, kSize, 1, 3)});
+    writer.write(0, {&views.back(), 1});
+    writer.finish(1, "");
+    folders.push_back(folder);
+  }
+  write_meshes(folders[0], 0, {meshes.data(), 1});
+  EXPECT_FALSE(ShardReader(folders).has_meshes());  // not all have them
+  write_meshes(folders[1], 0, {&meshes[1], 1});
+  const ShardReader reader(folders);
+  ASSERT_EQ(reader.sample_count(), 3);
+  expect_same(reader.copy_sample(1), views[0].samples[1]);
+  expect_same(reader.copy_sample(2), views[1].samples[0]);
+  expect_same(reader.copy_view(2), views[1].view);
+  EXPECT_EQ(reader.copy_mesh(1).normal_cam, meshes[0].normal_cam);
+  EXPECT_EQ(reader.copy_mesh(2).normal_cam, meshes[1].normal_cam);
+  EXPECT_EQ(reader.recipe(), R"([{"seed":1},{"seed":1}])");
+  EXPECT_THROW(ShardReader(std::vector<std::filesystem::path>{}), std::invalid_argument);
+}
+
 TEST_F(Shards, AFolderOfAnotherRecipeIsRefusedByNameOfTheDifference) {
   const ShardWriter writer(folder_, spec());
   ShardSpec other = spec();
