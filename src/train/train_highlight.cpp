@@ -85,8 +85,8 @@ DescentOptions descent_options(const TrainConfig& config) {
 class Training {
  public:
   Training(const TrainRun& run, const TrainHooks& hooks)
-      : run_(run), hooks_(hooks), device_(net::torch_device(run.device)), data_(data_of_run(run)), model_(model_of_run(run)),
-        descent_(model_.module, descent_options(run.config)) {
+      : run_(run), hooks_(hooks), device_(net::torch_device(run.device)), data_(data_of_run(run)),
+        model_(model_of_run(run)), descent_(model_.module, descent_options(run.config)) {
     identity_ = run_json(run, data_);
     if (run.repeat_batch) return;
     io::create_folder(run.folder);

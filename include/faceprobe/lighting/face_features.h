@@ -14,7 +14,7 @@ namespace faceprobe::lighting {
 
 inline constexpr int kFeatureNside = 4;                                   // of core/sphere_grid.h
 inline constexpr int kFeatureCells = 12 * kFeatureNside * kFeatureNside;  // 192
-inline constexpr int kGatheredLayers = 3;  // shading, highlights, open shading
+inline constexpr int kGatheredLayers = 3;                                 // shading, highlights, open shading
 inline constexpr int kCellFeatures = kGatheredLayers * kFeatureCells * 4;
 inline constexpr int kSolvedLights = 2;  // from the shading, from the open shading
 inline constexpr int kSolvedFeatures = kSolvedLights * 3 * kFeatureCells;

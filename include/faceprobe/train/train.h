@@ -26,9 +26,9 @@ struct TrainRun {
   TrainConfig config;
   std::filesystem::path data;
   std::vector<std::filesystem::path> more_data;  // further such folders, learnt from as well
-  std::filesystem::path validation_data;  // empty: no validation
-  std::filesystem::path folder;           // made; a run that is there goes on if its config and data are the same
-  std::filesystem::path start;  // weights to begin with, of a network nowhere wider; empty: drawn from the seed
+  std::filesystem::path validation_data;         // empty: no validation
+  std::filesystem::path folder;  // made; a run that is there goes on if its config and data are the same
+  std::filesystem::path start;   // weights to begin with, of a network nowhere wider; empty: drawn from the seed
   net::Device device;
   int threads = 0;  // of the processor; 0 = all
   // Threads beside those that make batches ready; 0 = what the device can use up. The run is the same with any number.
