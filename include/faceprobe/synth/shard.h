@@ -61,7 +61,7 @@ class ShardReader {
   // Throws Error(kInput): no index.json, or shards that are not what it says.
   explicit ShardReader(const std::filesystem::path& folder);
   // Several folders as one, sample after sample; the recipe is an array of theirs, in which the numbers of a sample's map and person are those of its
-  // own folder. Meshes are there if all have them.
+  // own folder. Meshes are there if all have them. Throws Error(kInput) as above, std::invalid_argument without a folder.
   explicit ShardReader(const std::vector<std::filesystem::path>& folders);
 
   int sample_count() const { return static_cast<int>(place_.size()); }

@@ -2,7 +2,7 @@
 // The light prior's network for training (faceprobe/net/light_prior.h runs it): layers of sums with a leaky unit between, the logarithm of
 // radiance at the end.
 //
-//   LightMlp net(LightOptions{.inputs = 2112, .outputs = 576});
+//   LightMlp net(LightOptions{.inputs = 3456, .outputs = 576});
 //   torch::Tensor log_radiance = net(features);   // N x inputs -> N x outputs
 
 #include "net/light_options.h"
