@@ -98,7 +98,8 @@ constexpr std::array kTableNotes = {
 constexpr std::array<std::pair<const char*, const char*>, 11> kTerms = {{
     {"transport",
      "this program's solver: it inverts the matrix that leads from directions of light to what each patch of skin "
-     "shows, its own shadows included. The row of that name is the whole estimate as it comes, learnt prior included"},
+     "shows, highlights with the shadows of the face itself, shading as if nothing were in the way. The row of that "
+     "name is the whole estimate as it comes, learnt prior included"},
     {"prior",
      "the light that a small network expects from the same patches of skin, where the solver starts. Without it the "
      "solver starts from a smooth fit to the shading"},
