@@ -39,7 +39,7 @@ auto read_options(const Read& read, const std::string& text) {
 }
 
 torch::Tensor highlight_of(const torch::Tensor& raw, const Batch& batch) {
-  return net::highlight_from_raw(raw.narrow(1, 0, net::kRawChannels).to(torch::kFloat), batch.linear);
+  return net::highlight_from_raw(raw.to(torch::kFloat), batch.linear);
 }
 
 using Forward = std::function<torch::Tensor(const torch::Tensor&)>;
@@ -55,8 +55,8 @@ Forward in_precision(const std::string& precision, Forward forward) {
 }
 
 struct Raw {
-  torch::Tensor channels;
-  torch::Tensor gain;  // of the picture; of the face network alone
+  torch::Tensor highlight;
+  torch::Tensor surface, gain;  // of the face network alone; the gain is the picture's
 };
 
 // `surface`: with the inputs and outputs of the face network.
@@ -71,26 +71,27 @@ Model unet_model(const TrainConfig& config, bool surface) {
   unet->to(torch::kFloat, false);
   const Forward run = in_precision(config.precision, [impl = unet.ptr()](const auto& x) { return impl->forward(x); });
   const auto raw_of = [run, surface](const Batch& batch) -> Raw {
-    if (!surface) return {run(net::prepare_input(batch.linear, batch.clip, batch.mask)), {}};
+    if (!surface) return {run(net::prepare_input(batch.linear, batch.clip, batch.mask)), {}, {}};
     const net::FaceInput input = net::prepare_face_input(batch.linear, batch.clip, batch.mask, batch.surface.mesh);
-    return {run(input.channels), input.gain};
+    const net::FaceRaw raw = net::split_face_raw(run(input.channels));
+    return {raw.highlight, raw.surface, input.gain};
   };
   Model model;
   model.module = unet.ptr();
-  model.forward = [raw_of](const Batch& batch) { return highlight_of(raw_of(batch).channels, batch); };
+  model.forward = [raw_of](const Batch& batch) { return highlight_of(raw_of(batch).highlight, batch); };
   model.highlight = model.forward;
   model.metadata = {{net::kArchitectureKey, surface ? net::kFaceArchitecture : net::kUNetArchitecture},
                     {net::kOptionsKey, net::options_json(options)}};
   model.loss = [raw_of, surface](const Batch& batch, const LossConfig& weights) {
     const Raw raw = raw_of(batch);
-    const torch::Tensor loss = highlight_loss(highlight_of(raw.channels, batch), batch, weights);
+    const torch::Tensor loss = highlight_loss(highlight_of(raw.highlight, batch), batch, weights);
     if (!surface) return loss;
-    return loss + surface_loss(net::surface_from_raw(raw.channels, raw.gain), batch.surface, weights);
+    return loss + surface_loss(net::surface_from_raw(raw.surface, raw.gain), batch.surface, weights);
   };
   if (surface) {
     model.surface = [raw_of](const Batch& batch) {
       const Raw raw = raw_of(batch);
-      return net::surface_from_raw(raw.channels, raw.gain);
+      return net::surface_from_raw(raw.surface, raw.gain);
     };
   }
   return model;

@@ -50,7 +50,7 @@ TEST_F(FaceNetTest, SaysWhatTheTrainingSays) {
   Image mesh = random_picture(16, 8, -1, 1);
   const FaceInput input = prepare_face_input(tensor_view(picture.linear), tensor_view(picture.clip),
                                              tensor_view(picture.mask), tensor_view(mesh));
-  const FaceSurface expected = surface_from_raw(net(input.channels), input.gain);
+  const FaceSurface expected = surface_from_raw(split_face_raw(net(input.channels)).surface, input.gain);
   const torch::Tensor shading = expected.log_level.exp() * expected.colour;
   const torch::Tensor open = expected.open_log_level.exp() * expected.open_colour;
   const torch::Tensor region = expected.region.argmax(1);
@@ -85,8 +85,8 @@ TEST_F(FaceNetTest, WeightsWithoutAnOpenShadingHaveTheRest) {
   const FaceLayers layers = network.layers_both_ways(random_picture(16, 8, 0, 1), {}, {}, {});
   EXPECT_TRUE(layers.open_shading.empty());
   EXPECT_EQ(layers.shading.width(), 16);
-  const FaceSurface surface =
-      surface_from_raw(torch::zeros({1, FaceOutputs::kCountWithoutOpen, 8, 8}), torch::ones({1, 1, 1, 1}));
+  const FaceSurface surface = surface_from_raw(
+      split_face_raw(torch::zeros({1, FaceOutputs::kCountWithoutOpen, 8, 8})).surface, torch::ones({1, 1, 1, 1}));
   EXPECT_FALSE(surface.open_log_level.defined());
 }
 

@@ -68,6 +68,15 @@ TEST(Mscr, GrowsARampToARampInItsOwnChannel) {
   }
 }
 
+TEST(Mscr, GrowsAsCaffesTransposedConvolutionDoes) {
+  torch::manual_seed(3);
+  const torch::Tensor x = torch::randn({2, 3, 4, 5});
+  const torch::Tensor filter = bilinear_filter();
+  const torch::Tensor expected = torch::conv_transpose2d(x, filter.expand({3, 1, 16, 16}), {}, 8, 4, 0, 3);
+  // Four products of single precision in another order.
+  EXPECT_LT((grow_8_times(x, filter) - expected).abs().max().item<float>(), 1e-5F);
+}
+
 TEST(Mscr, DropsOutInTrainingOnly) {
   torch::manual_seed(5);
   const torch::NoGradGuard no_grad;

@@ -27,7 +27,14 @@ struct FaceInput {
 FaceInput prepare_face_input(const torch::Tensor& linear, const torch::Tensor& clip, const torch::Tensor& mask,
                              const torch::Tensor& mesh);
 
-// `raw`: N x FaceOutputs::kCount x H x W, or kCountWithoutOpen, of a picture multiplied by `gain`. Throws std::invalid_argument for another number of channels.
-FaceSurface surface_from_raw(const torch::Tensor& raw, const torch::Tensor& gain);
+// The raw output's channels of the highlight, for highlight_from_raw(), and all others, for surface_from_raw().
+struct FaceRaw {
+  torch::Tensor highlight, surface;
+};
+// `raw`: N x FaceOutputs::kCount x H x W, or kCountWithoutOpen. Throws std::invalid_argument for another number of channels.
+FaceRaw split_face_raw(const torch::Tensor& raw);
+
+// `surface_raw`: the channels that split_face_raw() gives, of a picture multiplied by `gain`. Throws std::invalid_argument for another number of them.
+FaceSurface surface_from_raw(const torch::Tensor& surface_raw, const torch::Tensor& gain);
 
 }  // namespace faceprobe::net

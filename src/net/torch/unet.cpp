@@ -1,5 +1,7 @@
 #include "net/torch/unet.h"
 
+#include "net/torch/planar_shuffle.h"
+
 #include <stdexcept>
 
 namespace faceprobe::net {
@@ -70,7 +72,7 @@ torch::Tensor UNetImpl::forward(const torch::Tensor& x) {
     features = skip + torch::upsample_nearest2d(below, {skip.size(2), skip.size(3)});
     features = decoder_[i]->as<Level>()->forward(features);
   }
-  return torch::pixel_shuffle(head_(features), kFold);
+  return planar_pixel_shuffle(head_(features), kFold);
 }
 
 }  // namespace faceprobe::net
