@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 #include <torch/torch.h>
 
+#include <cstdint>
+
 namespace faceprobe::net {
 namespace {
 
-torch::Tensor features(std::int64_t seed, torch::MemoryFormat order) {
+torch::Tensor features(std::uint64_t seed, torch::MemoryFormat order) {
   torch::manual_seed(seed);
   return torch::randn({3, 5 * 4, 7, 6}).contiguous(order);
 }
