@@ -23,7 +23,7 @@ torch::Tensor window_matrix(std::int64_t n, const torch::TensorOptions& options)
   return torch::ones({n, n}, options).triu(-(kWindow / 2)).tril(kWindow / 2) / kWindow;
 }
 
-// Mean over a square window about each pixel. Products with two matrices take a tenth of the time that libtorch's pooling does on a processor.
+// Mean over a square window about each pixel. Products with two matrices, because libtorch's pooling is slow on a processor.
 torch::Tensor window_mean(const torch::Tensor& planes) {
   const torch::Tensor rows = torch::matmul(planes, window_matrix(planes.size(3), planes.options()));
   return torch::matmul(window_matrix(planes.size(2), planes.options()), rows);

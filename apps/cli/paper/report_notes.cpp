@@ -23,11 +23,9 @@ constexpr const char* kDirectionRivals =
     "the scene behind a head, and these photos show none. Ambient light has no direction, so straight ahead stands in "
     "its place. The lamp at the brightest highlight has no answer where no highlight was found.";
 constexpr std::array kSectionNotes = {
-    SectionNote{
-        "highlights", "paper's network (MSCR)",
-        "Row \"paper's network (MSCR)\" is the paper's network, trained by us on our synthetic faces and not "
-        "finetuned on photos. The weights behind docs/results.md have had the 2600 steps of models/rivals/mscr.json, a "
-        "tenth of what our network has seen: it may be worth more than its row says (docs/benchmark.md)."},
+    SectionNote{"highlights", "paper's network (MSCR)",
+                "Row \"paper's network (MSCR)\" is the paper's network, trained by us on our synthetic faces and not "
+                "finetuned on photos. On how little docs/benchmark.md says."},
     SectionNote{"highlights_grey",
                 {},
                 "The truth is averaged over the channels like the estimates, so it is another picture than in colour: "

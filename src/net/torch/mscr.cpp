@@ -29,8 +29,8 @@ torch::Tensor growth(const torch::Tensor& taps, std::int64_t n) {
   return matrix.narrow(0, kGrow / 2, kGrow * n);
 }
 
-// PReLU. libtorch's own takes many times as long on the way back on a processor.
-torch::Tensor bent(torch::nn::PReLU& slope, const torch::Tensor& x) {
+// As the module's forward(), whose way back is slow on a processor.
+torch::Tensor prelu(torch::nn::PReLU& slope, const torch::Tensor& x) {
   return torch::relu(x) - slope->weight.view({1, -1, 1, 1}) * torch::relu(-x);
 }
 
@@ -125,20 +125,20 @@ torch::Tensor MscrTrunk::coarse(const torch::Tensor& x) {
   features = torch::relu(conv3_(features));
   features = torch::relu(conv4_(features));
   features = grow_8_times(pool(torch::relu(conv5_(features))), filter_);
-  return drop(bent(coarse_out_.slope, coarse_out_.conv(features)), is_training());
+  return drop(prelu(coarse_out_.slope, coarse_out_.conv(features)), is_training());
 }
 
 torch::Tensor MscrTrunk::features(const torch::Tensor& x) {
   if (x.dim() != 4 || x.size(1) != 3 || x.size(2) % kMscrMultiple != 0 || x.size(3) % kMscrMultiple != 0) {
     throw std::invalid_argument("MSCR: the input must be N x 3 x H x W with H and W multiples of 32");
   }
-  torch::Tensor features = torch::cat({pool(bent(first_.slope, first_.conv(x))), coarse(x)}, 1);
-  for (Unit& unit : fine_) features = drop(bent(unit.slope, unit.conv(features)), is_training());
+  torch::Tensor features = torch::cat({pool(prelu(first_.slope, first_.conv(x))), coarse(x)}, 1);
+  for (Unit& unit : fine_) features = drop(prelu(unit.slope, unit.conv(features)), is_training());
   return features;
 }
 
 torch::Tensor MscrTrunk::run(Branch& branch, const torch::Tensor& features) {
-  return branch.up(drop(bent(branch.unit.slope, branch.unit.conv(features)), is_training()));
+  return branch.up(drop(prelu(branch.unit.slope, branch.unit.conv(features)), is_training()));
 }
 
 MscrImpl::MscrImpl(const MscrOptions& options) : MscrTrunk(1), options_(options) {

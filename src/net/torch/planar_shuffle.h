@@ -1,7 +1,6 @@
 #pragma once
 // Internal: torch::pixel_shuffle for a network whose features lie channel by channel beside one another (channels last) and whose outputs are then
-// read plane by plane. libtorch's keeps the features' order, and every split, clamp and logarithm after it walks a few floats of each pixel: a third of
-// a training step on a processor.
+// read plane by plane. libtorch's keeps the features' order, and every split, clamp and logarithm after it walks a few floats of each pixel.
 //
 //   torch::Tensor planes = planar_pixel_shuffle(head(features), 2);   // N x 4C x H x W -> N x C x 2H x 2W, plane by plane
 
